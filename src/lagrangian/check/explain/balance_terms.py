@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
 from lagrangian.check.reference import Reference, terms
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
@@ -107,8 +108,7 @@ def _inertias(truth: Reference) -> list[sp.Expr]:
 
 def _has_weight(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line has a weight, of any body."""
-    g = [p.symbol for p in truth.model.parameters if p.name == "g" and truth.V.has(p.symbol)]
-    return bool(g) and expr.has(*g)
+    return bool(bounded.letters(expr) & letters_of_gravity(truth))
 
 
 def _is_of_centre(truth: Reference, expr: sp.Expr, wrong: WrongTerm) -> bool:

@@ -54,7 +54,9 @@ def with_right_balances(
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     changed = replace(verdict, findings=marked(verdict.findings, right, None, follow))
     names = {name for name, _ in NAMES}
-    if any(m.name in names for m in verdict.mistakes) or judge is None:
+    blamed = any(f.status is Status.WRONG and place_of(f.line) in own for f in verdict.findings)
+    explained = bool(verdict.mistakes) and not blamed  # no balance was called wrong
+    if explained or any(m.name in names for m in verdict.mistakes) or judge is None:
         return changed if verdict.mistakes else None
     forces = {key(str(x)) for x in balances.forces}
     rest = [x for x in lines if place_of(x) not in own and not (x.kind == "definition" and key(str(x.name)) in forces)]
