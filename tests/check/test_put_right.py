@@ -266,3 +266,26 @@ def test_an_acceleration_in_words_is_judged(said: str) -> None:
     verdict = wheel().check("\n".join([wrong, WHEEL.replace("- m s theta'^2", "+ m s theta'^2"), bob]))
     assert [x[1:] for x in found(verdict)] == [(False, False), (False, True), (False, True)]
     assert str(verdict.mistakes[0].what).endswith("the term s*sin(theta)*theta'^2 has the wrong sign.")
+
+
+def test_an_energy_of_a_translation_alone_is_told_as_that() -> None:
+    """T₃ is the energy of the same body's rotation."""
+    sheet = "T_1 = 1/2 m (x'^2 + s^2 theta'^2 + 2 s x' theta' cos(theta))\nT_2 = {} M x'^2\nT_3 = 1/2 J x'^2/R^2"
+    assert wheel().check("\n".join([sheet.format("1/2"), WHEEL, BOB])).right
+    verdict = wheel().check("\n".join([sheet.format("1/4"), WHEEL.replace("(M +", "(1/2 M +"), BOB]))
+    wrong = {f.line.number: f.follows for f in verdict.findings if not f.status.right}
+    assert wrong == {2: False, 4: True}
+    assert "the kinetic energy of the translation of rigid body 'wheel' is" in str(verdict.mistakes[0].what)
+
+
+def test_a_wrong_potential_beside_a_constraint_is_told_where_it_is_said() -> None:
+    rows = """x - R phi = 0
+x'' - R phi'' = 0
+(M + m) x'' - m a theta'' sin(theta) - m a theta'^2 cos(theta) = mu
+J phi'' = -b (phi' + theta') - R mu
+(I + m a^2) theta'' - m a x'' sin(theta) + m g a cos(theta) = -b (phi' + theta')"""
+    V = "V_1 = m g a sin(theta)"
+    assert roller().check(f"{V}\n{rows}").right
+    verdict = roller().check(f"{V.replace('g a', '2 g a')}\n{rows.replace('m g a', '2 m g a')}")
+    assert found(verdict)[0] == (1, False, False) and found(verdict)[-1] == (6, False, True)
+    assert "potential energy of the weight" in str(verdict.mistakes[0].what)

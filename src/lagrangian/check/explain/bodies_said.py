@@ -24,6 +24,7 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
 from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation, without_constant
 from lagrangian.check.explain.sheets import sheets
+from lagrangian.check.held import OnConstraints
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
@@ -136,7 +137,7 @@ class BodiesSaid:
 
         ``every`` are these lines, those that may have been meant otherwise not among them.
         """
-        wrong = [line for line in every if not any(line is x for x in self.rates)]
+        wrong = [line for line in every if not any(line is x for x in self.rates) and not self._holds(line)]
         if not wrong or not self.parts or any(line.kind not in JUDGED for line in wrong):
             return None
         blocks = [self._of_value(x) for x in wrong if x.kind != "equation"]
@@ -153,6 +154,13 @@ class BodiesSaid:
             if (found := self._blamed([*direct, *map(self._of_rows, chosen)], wrong)) is not None:
                 return found
         return None
+
+    def _holds(self, line: AnsweredLine) -> bool:
+        """Whether an equation holds along every right motion on constraints, as what these ask of the accelerations."""
+        if not isinstance(self.truth, OnConstraints) or line.kind != "equation":
+            return False
+        values = CompiledExpressions([line.expr]).at(self.truth.states, self.truth.accelerations)[0]
+        return bool(np.isfinite(values).all()) and bool(np.abs(values).max() <= SMALL)
 
     def _of_rows(self, under: Alignment) -> Block:
         """What is wrong in a set of equations, and what each definition adds to them."""

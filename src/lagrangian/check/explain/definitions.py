@@ -76,5 +76,8 @@ def _right(truth: Reference, line: AnsweredLine, turned: bool) -> list[Sayable]:
     """The quantities that a definition has right; a position may be counted from another place."""
     if found := right_quantities(truth, line, turned=turned):
         return found
-    placed = [q for q in right_quantities(truth, line, but=True) if q.kind in PLACED]
-    return [replace(q, words=(*q.words, ", from another place")) for q in placed]
+    placed = [q for q in right_quantities(truth, line, but=True) if q.kind in (*PLACED, "potential")]
+    return [
+        replace(q, words=(*q.words, ", but for a constant" if q.kind == "potential" else ", from another place"))
+        for q in placed
+    ]

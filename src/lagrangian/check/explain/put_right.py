@@ -61,7 +61,7 @@ def with_wrong_name(
         copied = [x.rhs for x in answer.lines if (x.place.line, x.name) == (line.number, line.name) and x.rhs.is_Add]
         for value, same in _values(truth, line):
             put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
-            if mended := _mended(truth, verdict, judge(put), put):
+            if _may_mend(truth, open_ones[0].line, put) and (mended := _mended(truth, verdict, judge(put), put)):
                 return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
     return verdict
 
@@ -137,6 +137,18 @@ def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
     if isinstance(symbol, AppliedUndef):
         table |= {sp.Derivative(symbol, (time, k)): bounded.diff(value, *[time] * k) for k in range(1, HIGHEST + 1)}
     return cast("sp.Expr", bounded.replaced(expr, table))
+
+
+def _may_mend(truth: Reference, first: AnsweredLine, put: Answer) -> bool:
+    """Whether the first wrong line may be right: an equation in names of the system holds along the right motion."""
+    alone = replace(put, lines=tuple(x for x in put.lines if x.place.line == first.number and x.text == first.text))
+    exprs = [x.expr for x in filled(truth, lines_of(alone)) if x.kind == "equation"]
+    on = held(truth) if truth.derivation.multipliers else truth
+    if first.kind != "equation" or len(exprs) != 1 or on is None or bounded.letters(exprs[0]) - truth.names - {time}:
+        return True
+    compiled = CompiledExpressions(exprs)
+    values, scale = compiled.at(on.states, on.accelerations)[0], np.abs(compiled.at(on.states)[0]).max()
+    return not np.isfinite(values).all() or bool(np.abs(values).max() <= 1e-6 * (1 + scale))
 
 
 def _mended(truth: Reference, verdict: Verdict, found: Verdict, put: Answer) -> list[AnsweredLine]:

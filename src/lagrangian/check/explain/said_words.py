@@ -72,13 +72,19 @@ WHY_SIGN_OF_RATE = text(
 )
 OF_MANY_TERMS = ("speed", "kinetic", "mass", "potential")
 """Kinds in which two formulas in different arrangements do not show at once in which term they differ."""
+WHY_ROLLING = text(
+    "ω is how fast the body itself turns against the fixed axes: where it rolls, or a rope or a wheel drives it, both "
+    "have the same velocity at the contact; that velocity against its own axle, divided by its own radius, is ω."
+)
 OF_WAYS, OF_TURNED = ("position", "apart", "height", "place"), ("component", "acceleration", "velocity")
 SIGN = " has the wrong sign."
 """How the words for a wrong sign of a term end."""
 
 
-def why_of(kind: str, apart: Sequence[str | Left]) -> Text:
-    """Why a quantity is wrong that differs in these words from what is right."""
+def why_of(kind: str, right: sp.Expr, apart: Sequence[str | Left]) -> Text:
+    """Why a quantity is wrong that differs in these words from what is ``right``."""
+    if kind == "turning" and sp.fraction(right)[1].free_symbols:
+        return WHY_ROLLING
     sign = bool(apart) and str(apart[-1]) == SIGN
     if sign and kind in OF_WAYS:
         return WHY_SIGN

@@ -126,7 +126,7 @@ class SaidWrongly:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
-        return WHY_TERM if whole else why_of(of.kind, self.words.apart)
+        return WHY_TERM if whole else why_of(of.kind, of.right, self.words.apart)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:
@@ -186,10 +186,11 @@ def _quantities(truth: Reference, said: sp.Expr) -> Sayables:
     return accelerations_of(truth) if _accelerates(truth, said) else quantities_of(truth)
 
 
-def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool) -> list[int]:
+def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool, *, parts: bool = False) -> list[int]:
     """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force.
 
-    If its axes are ``turned``, v_x is no component along the fixed one. Accelerations have names of any letters.
+    If its axes are ``turned``, v_x is no component along the fixed one. Accelerations have names of any letters. With
+    ``parts``, T_2 may be the energy of a translation alone.
     """
     every, name = _quantities(truth, said).all, line.name or ""
     owner = owner_of(name, truth.model)
@@ -205,10 +206,14 @@ def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool
     for b in truth.model.bodies if kinds is not None else ():
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
-    found = [k for k in found if (every[k].kind == "along" if turned else is_meant(every[k].kind, name))]
+    found = [k for k in found if _is_meant(every[k].kind, name, turned, parts)]
     found = [k for k in found if is_along(every[k].axis, name)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
+
+
+def _is_meant(kind: str, name: str, turned: bool, parts: bool) -> bool:
+    return kind == "along" if turned else (parts and kind in PART_OF) or is_meant(kind, name)
 
 
 def _is_place(truth: Reference, line: AnsweredLine) -> bool:
@@ -266,7 +271,7 @@ def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> It
     every, right = _quantities(truth, said), right_quantities(truth, line, but=True, turned=turned)
     placed = all(q.kind in PLACED for q in right)  # R + s sin θ is the height s sin θ from another place, if it is that
     s, elsewhere = every.of, bool(right_quantities(truth, line, turned=turned) if placed else right)
-    for k in _plausible(truth, line, said, turned):
+    for k in _plausible(truth, line, said, turned, parts=True):
         q = every.all[k]
         if not _alike(s, q, said) or any(q is x for x in right):
             continue
