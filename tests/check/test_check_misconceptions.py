@@ -11,7 +11,7 @@ import built_in
 import lagrangian as lg
 from built_in import derivation as derived
 from lagrangian.check import Status, explained
-from lagrangian.check.explain import candidates, constraint_slips, misconceptions, said_wrongly, say, special_cases
+from lagrangian.check.explain import candidates, constraint_slips, misconceptions, said_words, say, special_cases
 from lagrangian.check.explain.misconceptions import MISCONCEPTIONS, Ingredients
 from size import also_in_full, cases
 
@@ -155,7 +155,7 @@ def test_no_reason_is_a_correction() -> None:
     """A hint of level 2 tells the reason too: in words, and with no formula but the lecture's own."""
     reasons = [str(m.WHY) for m in MISCONCEPTIONS if m.__name__.rsplit(".", 1)[1] != "small_angle"]
     reasons += [kind.why for kind in say.KINDS.values()] + list(say.WHY_PART.values())
-    reasons += [str(t) for t in (*constraint_slips.WHY, special_cases.WHY_RATES, *said_wrongly.WHY.values())]
+    reasons += [str(t) for t in (*constraint_slips.WHY, special_cases.WHY_RATES, *said_words.WHY.values())]
     for reason in reasons:
         words = reason
         for formula in LECTURE:

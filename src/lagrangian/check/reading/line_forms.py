@@ -190,7 +190,16 @@ def made_line(
 
 
 def _summands(kind: Kind, lhs: sp.Expr | None, a: Tree, b: Tree, reader: Meaning) -> Summands:
-    """The terms of an energy, a force or a definition, or of an equation, as they are written."""
+    """The terms of an energy, a force or a definition, or of an equation, as they are written; none if one has no
+    value of its own."""
+    try:
+        with reader.names.redefined.unrecorded():
+            return _parts(kind, lhs, a, b, reader)
+    except ParseError:
+        return ()
+
+
+def _parts(kind: Kind, lhs: sp.Expr | None, a: Tree, b: Tree, reader: Meaning) -> Summands:
     if kind == "equation" and lhs is not None and a is not b:
         sides = summands(a, reader), summands(b, reader)
         return (*sides[0], *negative(sides[1])) if all(sides) else ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 
@@ -20,6 +21,15 @@ class OwnValues:
     def use(self, base: str) -> None:
         """Record that the value that a name has now is used."""
         self._used.add((base, len(self._values.get(base, ()))))
+
+    @contextmanager
+    def unrecorded(self) -> Iterator[None]:
+        """While this lasts, looking at a value uses it not."""
+        used = set(self._used)
+        try:
+            yield
+        finally:
+            self._used = used
 
     def unused(self) -> Iterator[tuple[str, int, Any, Any]]:
         """Each name that is used, with two values of which one is used nowhere: (name, statement, above, value)."""
