@@ -82,7 +82,7 @@ def test_a_column_of_forces_that_holds_weights_is_the_answers_own() -> None:
     )
     assert derivation("cart-pole").check(written, hint=0).right
     verdict = derivation("cart-pole").check(written.replace("J + m*l^2", "J + m*l"))
-    assert [f.line.kind for f in verdict.findings if not f.status.right] == ["equation"]
+    assert [f.line.kind for f in verdict.findings if not f.status.right] == ["equation", "definition"]
     assert "l is not squared" in verdict.to_text() or "m l²" in verdict.to_text()
 
 

@@ -112,7 +112,8 @@ def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mi
     wrong = [f.line for f in findings if f.line.kind == "definition" and f.status is Status.WRONG and not f.follows]
     wrong = [x for x in wrong if not any(str(m.what).startswith(f"Line {x.number} is ") for m in told)]
     pairs = [(p, owner) for x in wrong if (owner := owner_of(x.name or "", truth.model)) for p in said_of(truth, x)]
-    said = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]
+    every = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]
+    said = list({id(p.line): p for p in reversed(every)}.values())[::-1]
     titles = [p.mistake.element for p in said]
     pool = pool_of(truth)
     pieces = WrittenPieces(pool, [f.line for f in findings] if said else [])

@@ -119,6 +119,10 @@ def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     return balances is not None and balances.solved(range(len(balances.lines))) is not None
 
 
+OF_DERIVATIVES = frozenset(["coupling_forgotten", "gradient_forgotten", "product_rule"])
+"""Mistakes of Lagrange's derivatives, in whatever words."""
+
+
 @dataclass(frozen=True, eq=False)
 class WrongBalance:
     """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
@@ -152,8 +156,8 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
 
 
 def _of_derivatives(mistake: Mistake) -> bool:
-    """Whether a mistake is told in derivatives of energies."""
-    return any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
+    """Whether a mistake is told in derivatives of energies, or is one of these."""
+    return mistake.name in OF_DERIVATIVES or any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
 
 
 def _one_blamed(
