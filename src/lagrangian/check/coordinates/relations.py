@@ -18,7 +18,13 @@ FAR = 1e-6
 
 
 def solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
-    """Return the value of the unknown at which an expression is 0, if the expression is linear in it."""
+    """Return the value of the unknown at which an expression is 0, if the expression is linear in it, or in its tangent
+    or its sine, y = h tan α: then it is the angle between −90° and 90°."""
+    for function, inverse in ((sp.tan, sp.atan), (sp.sin, sp.asin)):
+        name = sp.Dummy()
+        inside = cast("sp.Expr", expr.xreplace({function(unknown): name}))
+        if inside.has(name) and not inside.has(unknown):
+            return [cast("sp.Expr", inverse(x)) for x in solutions(inside, name)]
     slope = expr.diff(unknown)
     if slope == 0 or slope.has(unknown):
         return []

@@ -284,6 +284,10 @@ def _static(truth: Reference) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
 # ---------------------------------------------------------------------------------------------------------
 
 
+ROUNDING = 1e-12
+"""What is smaller is 0 at every motion, as in ẏ = h α̇/cos² α with y = h tan α."""
+
+
 class QuickTest:
     """Tests quickly whether a change may make an answer right: from its equations in doubles, from an energy where no
     equation has a name that is changed."""
@@ -320,7 +324,7 @@ class QuickTest:
         truly, off = np.split(self._compiled.at_each(self.truth.states, instead), 2, axis=1)
         good = np.isfinite(truly) & np.isfinite(off)
         scale = np.where(good, np.abs(off), 0).max(axis=2)
-        small = np.where(good, np.abs(truly), 0).max(axis=2) <= DOUBLE_TOLERANCE * scale
+        small = np.where(good, np.abs(truly), 0).max(axis=2) <= np.maximum(DOUBLE_TOLERANCE * scale, ROUNDING)
         return np.logical_and(good.any(axis=2), small)
 
     def _keeps_energy(self, change: ProposedChange) -> bool:

@@ -157,7 +157,9 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
 
 def _of_derivatives(mistake: Mistake) -> bool:
     """Whether a mistake is told in derivatives of energies, or is one of these."""
-    return mistake.name in OF_DERIVATIVES or any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
+    return mistake.name in OF_DERIVATIVES or any(
+        x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*")
+    )
 
 
 def _one_blamed(

@@ -34,10 +34,17 @@ _LETTERS = frozenset("biu")
 _PARTS = frozenset(["td", "th"])
 
 
+_PARAGRAPH = re.compile(
+    r"<p(?:[ \t][^<>\n]{0,200})?>[^<]*(?:<(?!/?(?:p|pre|br|div|table|ul|ol)\b)[^<]*)*</p>", re.IGNORECASE
+)
+"""A paragraph, in which the end of a line means nothing."""
+
+
 def without_tags(written: TracedText) -> TracedText:
     """Return an answer without tags and entities of HTML; each paragraph is a line."""
     if "<" in written.text and ">" in written.text:
         written = written.sub(_COMMENT, lambda match: " ")
+        written = written.sub(_PARAGRAPH, lambda match: match.group().replace("\n", " "))
         written = written.sub(_LETTER_TAG, _tag).sub(_FRACTION, lambda m: f"(({m['above']})/({m['below']}))")
         written = written.sub(_RAISED, _raised).sub(_TAG, _tag)
     return written.sub(_ENTITY, _character) if "&" in written.text else written
