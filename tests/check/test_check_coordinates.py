@@ -1,6 +1,7 @@
 """Answers in other coordinates: stated, named, or without a word; and what is not let through as such."""
 
 import pytest
+import sympy as sp
 
 from built_in import derivation as derived
 from lagrangian import System
@@ -52,14 +53,16 @@ def test_measured_from_the_place_of_rest() -> None:
     assert any("It would be right with" in str(note) for note in verdict.notes)
 
 
-def test_a_direction_that_the_answer_does_not_state_is_a_condition_of_the_verdict() -> None:
-    """Right for whoever counts the first cart to the left, and who should say so."""
-    verdict = derived("lecture-3a").check("m1*x1'' + k*(x1 + x2) = F\nm2*x2'' + k*(x1 + x2) = F")
-    assert verdict.status is Status.OTHER_COORDINATES
-    unsaid = "Your answer does not say so; if it is not meant, the equations are wrong."
-    assert any(unsaid in str(note) for note in verdict.notes)
-    stated = derived("lecture-3a").check(RELATIVE.format(s="s"))
-    assert not any("does not say so" in str(note) for note in stated.notes)
+def test_a_direction_that_the_answer_does_not_state_makes_nothing_right() -> None:
+    """The equations of whoever counts the first cart to the left: who must say so."""
+    rows = "m1*x1'' + k*(x1 + x2) = F\nm2*x2'' + k*(x1 + x2) = F"
+    verdict = derived("lecture-3a").check(rows)
+    assert verdict.status is Status.WRONG
+    told = "It would be right with x1 counted the other way round. Say so in your answer if that is what you mean."
+    assert told in [str(note) for note in verdict.notes], verdict.notes
+    stated = derived("lecture-3a").check(f"u = -x1\n{rows.replace('x1', 'u')}")
+    assert stated.right
+    assert not any("would be right" in str(note) for note in stated.notes)
 
 
 @pytest.mark.slow
@@ -96,3 +99,23 @@ def test_a_mistake_is_named_where_a_coordinate_is_abbreviated() -> None:
     verdict = derived("pendulum").check("m*L^2*th'' - b*th' + m*g*L*sin(th) = 0")
     assert not verdict.right and any("th" in str(note) for note in verdict.notes)
     assert verdict.mistake is not None and verdict.mistake.name == "damper_sign"
+
+
+def test_an_angle_may_be_given_by_its_tangent() -> None:
+    s = System("collar on a rod, pulled by a rope over a pulley")
+    y = s.coordinates("y")
+    m, M, h, g = s.parameters("m M h g")
+    s.particle(m, at=s.origin + (h, -y))
+    s.particle(M, at=s.origin + (0, sp.sqrt(h**2 + y**2)))
+    s.gravity((0, -1), g)
+    d = s.derive()
+    rows = (
+        "I use the angle alpha of the rope; y = h*tan(alpha), the rope is h/cos(alpha).\n"
+        "y' = h*alpha'/cos(alpha)^2\n"
+        "T = h^2*(m + M*sin(alpha)^2)*alpha'^2/(2*cos(alpha)^4)\nV = -m*g*h*tan(alpha) + M*g*h/cos(alpha)\n"
+        "h^2*(m + M*sin(alpha)^2)/cos(alpha)^4*alpha'' + h^2*(M*sin(alpha)/cos(alpha)^3 "
+        "+ 2*(m + M*sin(alpha)^2)*sin(alpha)/cos(alpha)^5)*alpha'^2 - m*g*h/cos(alpha)^2 + M*g*h*sin(alpha)/cos(alpha)^2 = 0"
+    )
+    assert d.check(rows).right
+    assert not d.check(rows.replace("V = -m", "V = m")).right
+    assert not d.check(rows.replace("h*tan", "h*sin")).right

@@ -160,3 +160,16 @@ def test_a_multiplier_behind_a_comma_is_no_part_of_a_constraint() -> None:
     rows = "Constraint x + y - L = 0, λ\nM x'' = λ\nm y'' = m g + λ"
     assert s.derive().check(rows).right
     assert not s.derive().check(rows.replace("m g +", "m g + m g +")).right
+
+
+def test_a_paragraph_of_html_is_one_line() -> None:
+    sheet = f"<html><body><p>Dear all,\nthe cart:</p>\n<p>{CART.replace(' + b', chr(10) + '+ b')}</p>\n<p>{POLE}</p></body></html>"
+    assert right(sheet)
+    assert not right(sheet.replace("- m g", "+ m g"))
+
+
+@pytest.mark.parametrize("said", ["Only the angular velocity w = theta' appears.", "Only the speed w = θ̇ appears."])
+def test_a_verb_behind_a_value_is_no_factor(said: str) -> None:
+    rows = f"{said}\n{CART.replace(chr(34), '')}\n(J + m l^2) w' + m l x'' cos theta - m g l sin theta = 0"
+    assert right(rows)
+    assert not right(rows.replace("- m g", "+ m g"))

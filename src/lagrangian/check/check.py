@@ -236,8 +236,8 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
 
 
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: bool) -> Verdict | None:
-    """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
-    change, which without ``explain`` is not considered."""
+    """The verdict in other coordinates if the answer is right in some. A change that an answer has to state, but does
+    not, makes nothing right: a note says what would be; without ``explain`` it is not considered."""
     new = new_names(truth, spelling.lines)
     for change, told in _possible(truth, spelling.lines, new):
         judged = judged_lines(truth, told, change, compared=False)
@@ -248,8 +248,9 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
         if not change.plain or not (new or _tells(spelling.lines)):
             findings = verdict.findings if explain and verdict.hint else judged_lines(truth, spelling.lines).findings
             named = mistakes(truth, spelling.lines, findings)
-            if named.certain or too_long(truth):
-                note = text("It would be right with ", *change.words.parts, ".")
+            if named.certain or too_long(truth) or not change.plain:
+                unsaid = "." if change.plain else ". Say so in your answer if that is what you mean."
+                note = text("It would be right with ", *change.words.parts, unsaid)
                 return replace(
                     verdict,
                     findings=with_wrong_definitions(verdict.findings, named.blamed),

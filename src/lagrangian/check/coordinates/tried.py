@@ -47,7 +47,8 @@ class ProposedChange(Brief):
     reported.
 
     ``plain`` changes are usually made without saying so (relative instead of absolute coordinates), or are stated in
-    the answer under a new name. Other changes are proposed only if no mistake explains the answer.
+    the answer under a new name. With others, such as a direction counted the other way round, the answer would be right
+    if it said so.
     """
 
     table: Mapping[sp.Expr, sp.Expr]
@@ -56,9 +57,8 @@ class ProposedChange(Brief):
 
     @property
     def told(self) -> Text:
-        """How the coordinates were understood, and that the answer itself does not say so where it should."""
-        unsaid = () if self.plain else (" Your answer does not say so; if it is not meant, the equations are wrong.",)
-        return text("In other coordinates: ", *self.words.parts, ".", *unsaid)
+        """How the coordinates were understood."""
+        return text("In other coordinates: ", *self.words.parts, ".")
 
     def put(self, expr: sp.Expr) -> sp.Expr:
         """An expression of the answer in the system's coordinates."""

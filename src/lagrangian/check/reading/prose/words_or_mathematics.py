@@ -67,7 +67,7 @@ _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\
 """What a definition means: ψ = θ − β : angle between pendulum and normal."""
 _ASIDE = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]){2,16}[^\W\d_]{1,24})[.,;:!]?\s*\Z")
 """Words alone behind a gap: ρ = e + l sin θ      distance of a ball from the axis."""
-_ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
+_ENDS = re.compile(r"[\w\u0307\u0308)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
 _DONE_TO_ALL = re.compile(r"\s*+[×·*:/÷|]\s*+[^\W_]\w{0,11}\s*+\Z")
