@@ -114,7 +114,8 @@ def test_an_angle_may_be_given_by_its_tangent() -> None:
         "y' = h*alpha'/cos(alpha)^2\n"
         "T = h^2*(m + M*sin(alpha)^2)*alpha'^2/(2*cos(alpha)^4)\nV = -m*g*h*tan(alpha) + M*g*h/cos(alpha)\n"
         "h^2*(m + M*sin(alpha)^2)/cos(alpha)^4*alpha'' + h^2*(M*sin(alpha)/cos(alpha)^3 "
-        "+ 2*(m + M*sin(alpha)^2)*sin(alpha)/cos(alpha)^5)*alpha'^2 - m*g*h/cos(alpha)^2 + M*g*h*sin(alpha)/cos(alpha)^2 = 0"
+        "+ 2*(m + M*sin(alpha)^2)*sin(alpha)/cos(alpha)^5)*alpha'^2 - m*g*h/cos(alpha)^2 "
+        "+ M*g*h*sin(alpha)/cos(alpha)^2 = 0"
     )
     assert d.check(rows).right
     assert not d.check(rows.replace("V = -m", "V = m")).right

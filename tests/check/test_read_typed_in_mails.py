@@ -64,6 +64,18 @@ def test_what_is_said_of_special_motions_is_no_equation(said: str) -> None:
     assert not drum().check(f"{ROWS.replace('+ m g', '- m g')}\n{said}").right
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "The speed of the load follows from that of the drum (y' = R phi').",
+        "Natural frequency: phi'^2 = k/m",
+        "Equation of the drum with its acceleration: J phi'' + k R (R phi - y) + M",
+    ],
+)
+def test_what_is_said_of_every_motion_is_judged(said: str) -> None:
+    assert not drum().check(f"{ROWS}\n{said}").right
+
+
 @pytest.mark.parametrize("said", ["k y = m g", "k y = k phi", "y = R phi + m g/(2 k)", "y'' = R phi''"])
 def test_what_is_said_of_other_motions_is_judged(said: str) -> None:
     assert not drum().check(f"{ROWS}\n{said}").right
@@ -163,7 +175,8 @@ def test_a_multiplier_behind_a_comma_is_no_part_of_a_constraint() -> None:
 
 
 def test_a_paragraph_of_html_is_one_line() -> None:
-    sheet = f"<html><body><p>Dear all,\nthe cart:</p>\n<p>{CART.replace(' + b', chr(10) + '+ b')}</p>\n<p>{POLE}</p></body></html>"
+    cart = CART.replace(" + b", "\n+ b")
+    sheet = f"<html><body><p>Dear all,\nthe cart:</p>\n<p>{cart}</p>\n<p>{POLE}</p></body></html>"
     assert right(sheet)
     assert not right(sheet.replace("- m g", "+ m g"))
 

@@ -18,6 +18,7 @@ from itertools import accumulate, islice
 from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, FREQUENCIES
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
@@ -34,6 +35,8 @@ _REST = re.compile(
 """Words of positions at rest."""
 _FIRST = 6
 """The words of a line of which one says that it is a remark."""
+_FEWEST_WORDS = 2
+"""Fewer words are no sentence."""
 _MOST = 40
 """The largest number of remarks."""
 _MOST_CLOSED = 12
@@ -88,11 +91,15 @@ _LACKS = re.compile(
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
-_BRACKETED = re.compile(
-    r"[^\W\d_]{3,}[,.:]?[ ](?:[^\W\d_]{1,20}[ ]){0,12}?\((?:[^\W\d_]{2,20}[ ,:]{1,2}){0,8}"
-    r"\$?[^()=\n]{1,40}=[^()=\n]{1,60}\)[.,;]?[ \t]*$"
+_BRACKETED = re.compile(r"\((?P<inside>[^()=\n]{1,80}=[^()=\n]{1,60})\)[.,;]?[ \t]*$")
+"""A relation in brackets at the end of a sentence."""
+_SPECIAL = re.compile(
+    r"\b(?:if|when|whenever|only|rigid[ -]body|modes?|case|wenn|falls|nur|starrkörper\w{0,12}|si|lorsque)\b",
+    re.IGNORECASE,
 )
-"""A relation in brackets at the end of a sentence: its determinant is zero (rigid body motion: y = R φ)."""
+"""Words of special motions."""
+_SENTENCE = 200
+"""The most characters of a sentence in front of a bracket."""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -168,9 +175,19 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
-        if "(" in line and not accelerates_in(line) and _BRACKETED.search(line):
+        if "(" in line and not accelerates_in(line) and _is_aside(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"aside"}
     return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)
+
+
+def _is_aside(line: str) -> bool:
+    """Whether a line ends in a relation in brackets that is about special motions, as its words say: its determinant is
+    zero (rigid body motion: y = R φ); no friction if they turn together (θ′ = −x′/R)."""
+    relation = _BRACKETED.search(line)
+    if relation is None:
+        return False
+    said = line[max(0, relation.start() - _SENTENCE) : relation.end()]
+    return len(_WORD.findall(said)) > _FEWEST_WORDS and _SPECIAL.search(said) is not None
 
 
 def _blanked(text: str, remarks: Sequence[_Remark]) -> str:
@@ -244,7 +261,7 @@ def _kind(line: str) -> str | None:
     words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
     if CASES & set(words):
         return "case"
-    return "check" if CHECKS & set(words) or (FREQUENCIES & set(words) and not accelerates_in(line)) else None
+    return "check" if CHECKS & set(words) or (FREQUENCIES & set(words) and not moves(line)) else None
 
 
 def _is_title(lines: Sequence[str], k: int) -> bool:

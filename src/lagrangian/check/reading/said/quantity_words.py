@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import re
 
+import sympy as sp
 from lark import Tree
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine
 from lagrangian.check.reading.line_forms import made_line
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.model import Kinetic
 
 LONGEST = 100
 """The largest number of characters of such words."""
@@ -109,9 +112,18 @@ def labelled(value: Value, side: Tree, reader: Meaning, moving: bool) -> list[An
     if heading := reader.names.headed.get(place.line or 0):
         words = f"{heading}, {words}"
     kinds = kinds_of_words(words) if " " in words else ()
-    if not kinds or (kinds == ("acceleration",)) != moving:
+    if not kinds or (kinds == ("acceleration",)) != moving or (moving and value.free_symbols & _amounts(reader)):
         return []
     if isinstance(value, MatrixBase):
         entries = enumerate(value.flat(), 1)
         return [made_line("definition", None, x, f"{words}_{k}", side, side, reader) for k, x in entries]
     return [made_line("definition", None, value, words, side, side, reader)]
+
+
+def _amounts(reader: Meaning) -> set[sp.Basic]:
+    """The masses and moments of inertia of the system, which are in no acceleration: with one, it is an equation."""
+    model = reader.names.model
+    given = (e.value for e in model.elements if isinstance(e, Kinetic))
+    sizes = [*(x for b in model.bodies for x in (b.mass, *(y for row in b.tensor for y in row))), *given]
+    letters = {x: size for size in map(sp.sympify, sizes) for x in size.free_symbols}
+    return {x for x, size in letters.items() if not bounded.diff(size, x).has(x)}
