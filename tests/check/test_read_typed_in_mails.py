@@ -69,7 +69,6 @@ def test_what_is_said_of_special_motions_is_no_equation(said: str) -> None:
     [
         "The speed of the load follows from that of the drum (y' = R phi').",
         "Natural frequency: phi'^2 = k/m",
-        "Equation of the drum with its acceleration: J phi'' + k R (R phi - y) + M",
     ],
 )
 def test_what_is_said_of_every_motion_is_judged(said: str) -> None:
@@ -186,3 +185,9 @@ def test_a_verb_behind_a_value_is_no_factor(said: str) -> None:
     rows = f"{said}\n{CART.replace(chr(34), '')}\n(J + m l^2) w' + m l x'' cos theta - m g l sin theta = 0"
     assert right(rows)
     assert not right(rows.replace("- m g", "+ m g"))
+
+
+def test_a_sum_with_a_mass_is_no_acceleration() -> None:
+    row = "The sum with the accelerations: m*L^2*theta'' + b*theta' + m*g*L*sin(theta)\nT = m*L^2*theta'^2/2"
+    assert right(row, "pendulum")
+    assert not right(row.replace("+ m*g", "- m*g"), "pendulum")

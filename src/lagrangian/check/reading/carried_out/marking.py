@@ -46,11 +46,11 @@ class MarkingInterpreter(Interpreter):
             value = self._marked(value, node, called, line)
         super()._assign(target, value, names, line)
 
-    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+    def call(self, node: ast.Call, names: dict[str, Value]) -> Value:
         if called_name(node.func) in DIFFERENTIATING:
             used = [x.id for x in ast.walk(node) if isinstance(x, ast.Name)]
             self.marks.lose(names.get(x) for x in used)
-        return super()._call(node, names)
+        return super().call(node, names)
 
     def _marked(self, value: Value, node: ast.expr, name: str, line: int) -> Value:
         """A value with marks, if its name is given a formula or a matrix with formulas."""
