@@ -253,3 +253,10 @@ def rhs(t, z):
     assert right(program, "pendulum")
     assert not right(program.replace("(theta, omega, **", "(omega, theta, **"), "pendulum")
     assert not right(program.replace("dict(L", "dict(omega=2, L"), "pendulum")
+
+
+def test_a_mass_matrix_that_no_solver_gets_multiplies_nothing() -> None:
+    assert right(MASS, "cart-pole")
+    assert not right(MASS.replace(", opts);", ");"), "cart-pole")
+    assert not right(MASS.replace("[t,y] =", "opts = odeset('RelTol', 1e-6);\n[t,y] =", 1), "cart-pole")
+    assert right(MASS.replace("[t,y] =", "opts = odeset(opts, 'RelTol', 1e-6);\n[t,y] =", 1), "cart-pole")

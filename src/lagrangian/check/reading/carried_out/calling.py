@@ -27,6 +27,7 @@ from lagrangian.check.reading.carried_out.values import (
     ReturnedError,
     Routine,
     Shown,
+    SolverOptions,
     State,
     Value,
     called_name,
@@ -83,8 +84,9 @@ class Calling(Evaluator):
         return of if of is LOST else UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
-        if name == "odeset" and "Mass" in given[::2]:
-            self.mass = given[2 * given[::2].index("Mass") + 1]
+        if name == "odeset":
+            return _options(given)
+        self.mass = next((x.mass for x in given if isinstance(x, SolverOptions)), self.mass)
         if any(map(has_unknown, given)):
             return UNKNOWN
         if (of := made(name, given, options) or method(name, given, options)) is not None:
@@ -169,3 +171,12 @@ class Calling(Evaluator):
         if isinstance(made, Outside):
             raise AbandonedError
         return made
+
+
+def _options(given: Sequence[Value]) -> SolverOptions:
+    """What odeset makes: the options in front, if there are some, with a mass matrix that is given behind its name."""
+    before = given[0] if given and isinstance(given[0], SolverOptions) else None
+    named = given[1:] if before is not None else given
+    places = [k for k, x in enumerate(named[::2]) if x == "Mass"]
+    mass = named[2 * places[-1] + 1] if places and 2 * places[-1] + 1 < len(named) else None
+    return SolverOptions(mass if mass is not None or before is None else before.mass)

@@ -47,6 +47,13 @@ class Outside:
     """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
 
 
+class SolverOptions(Outside):
+    """The options of a solver, of which only the ``mass`` matrix is kept."""
+
+    def __init__(self, mass: Value) -> None:
+        self.mass = mass
+
+
 UNKNOWN, LIBRARY, LOST = Outside(), Outside(), Outside()
 """What is not known, a module, and what is made of parameters in a way that is not known."""
 MODULES = frozenset(
