@@ -12,6 +12,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
 
 
 @cache
@@ -97,3 +98,9 @@ dV/ds = -m g sin(alpha) + M g
     assert wrong == [2] and next(f for f in verdict.findings if f.line.number == 4).status.right
     slip = d.check(answer.replace("+ M g\n", "- M g\n"))
     assert [f.line.number for f in slip.findings if not f.status.right and not f.follows] == [4]
+
+
+def test_a_relation_in_a_coordinate_counted_the_other_way_is_judged() -> None:
+    rows = "phi = -psi\nm*x'' - m*g*sin(beta) = -lambda\nJ*psi'' = -r*lambda\nx = {}r*psi"
+    assert not derivation("wheel-on-incline").check(rows.format("")).right
+    assert not derivation("wheel-on-incline").check(rows.format("-2*")).right

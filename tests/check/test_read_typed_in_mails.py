@@ -69,6 +69,7 @@ def test_what_is_said_of_special_motions_is_no_equation(said: str) -> None:
     [
         "The speed of the load follows from that of the drum (y' = R phi').",
         "Natural frequency: phi'^2 = k/m",
+        "Frequency and stretch: R phi = 2 y",
     ],
 )
 def test_what_is_said_of_every_motion_is_judged(said: str) -> None:

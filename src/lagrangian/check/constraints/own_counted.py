@@ -29,11 +29,18 @@ def without_own_counts(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple
         return tuple(lines)
     change = ProposedChange(table, text(), True)
     return tuple(
-        replace(line, name=str(solved[k][0].func), expr=solved[k][1])
-        if k in solved
-        else replace(line, expr=change.put(line.expr))
+        replace(line, name=str(solved[k][0].func), expr=solved[k][1]) if k in solved else _moved(truth, line, change)
         for k, line in enumerate(lines)
     )
+
+
+def _moved(truth: Reference, line: AnsweredLine, change: ProposedChange) -> AnsweredLine:
+    """A line in the system's coordinates; what it says that one of these is, x = r ψ, is then judged."""
+    named = {c.name: c.symbol for c in truth.model.coordinates}
+    expr = change.put(line.expr)
+    if line.kind == "definition" and line.name in named and line.expr.has(*change.table):
+        return replace(line, kind="equation", name=None, expr=cast("sp.Expr", named[line.name] - expr))
+    return replace(line, expr=expr)
 
 
 def _solved(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr] | None:

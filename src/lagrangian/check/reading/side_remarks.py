@@ -15,7 +15,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
-from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, FREQUENCIES
+from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import moves
@@ -261,7 +261,8 @@ def _kind(line: str) -> str | None:
     words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
     if CASES & set(words):
         return "case"
-    return "check" if CHECKS & set(words) or (FREQUENCIES & set(words) and not moves(line)) else None
+    of_frequencies = bool(FREQUENCIES & set(words)) and set(words) <= BESIDE_FREQUENCIES and not moves(line)
+    return "check" if CHECKS & set(words) or of_frequencies else None
 
 
 def _is_title(lines: Sequence[str], k: int) -> bool:

@@ -54,7 +54,7 @@ _GONE = re.compile(
 _SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
 _NAMED = re.compile(r"[^\W\d][\w\u0307\u0308]*")
-_FACTOR = re.compile(r"[ \t]+([^\W\d_]{2,12})(?![^\W_])")
+_FACTOR = re.compile(r"(?<![\d.])[ \t]+([^\W\d_]{2,12})(?![^\W_])(?!['’′]{0,2}[ \t]*=)")
 _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 
 

@@ -23,3 +23,9 @@ CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
 FREQUENCIES = frozenset(_FREQUENCIES.split())
 """Words of what is found from equations of motion; a line with an acceleration may be one."""
+_BESIDE_FREQUENCIES = (
+    "natural angular circular undamped damped small own both two three the of and for system motion motions "
+    "oscillation oscillations vibration vibrations without damping matrix model rad hz"
+)
+BESIDE_FREQUENCIES = FREQUENCIES | frozenset(_BESIDE_FREQUENCIES.split())
+"""Words that may stand beside them; others say of something else what is stated."""
