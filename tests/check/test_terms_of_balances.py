@@ -222,6 +222,13 @@ def test_of_two_wrong_balances_none_is_blamed_alone(other: str) -> None:
     assert told == ["Lines 2 and 3, which have S, do not agree: at least one of them is wrong."]
 
 
+def test_balances_that_follow_from_a_wrong_acceleration_are_not_told_as_disagreeing() -> None:
+    answer = "\n".join((*HANGING, DRAWN)).replace(" + h^2 y'^2/l^3", "")
+    verdict = collar().check(answer)
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [1]
+    assert not any(f.clash for f in verdict.findings) and all("agree" not in x for x in said(collar(), answer))
+
+
 @cache
 def boom() -> lg.Derivation:
     """A mast on a slanting spring from its tip to the ground, which lifts a weight on a rope."""

@@ -141,13 +141,14 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
     """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
     do not agree in their place.
 
-    Where one of these was not judged or is called right, none is blamed alone.
+    Where one of these was not judged or is called right, no other is blamed alone.
     """
     told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
     places = left_out(balances)
     apart = [balances.lines[i] for i in places] if 1 < len(places) <= MOST_TOLD else []
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
-    alone = any(place_of(x) not in wrong for x in apart)
+    roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    alone = any(place_of(x) in roots for x in apart) and any(place_of(x) not in wrong for x in apart)
     if told == verdict.mistakes and not alone:
         return verdict
     if apart and not told:
