@@ -230,6 +230,44 @@ def test_balances_that_follow_from_a_wrong_acceleration_are_not_told_as_disagree
 
 
 @cache
+def metronome() -> lg.Derivation:
+    """A slider on a bar that turns."""
+    s = lg.System("bar and slider")
+    theta, x = s.coordinates("theta s")
+    J, m, k, d, c, g = s.parameters("J m k d c g")
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(m, at=s.point("A", (x * sp.sin(theta), x * sp.cos(theta))), name="slider")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=theta, name="hinge")
+    s.damper(d, deflection=x, name="slide")
+    s.damper(c, deflection=theta, name="bearing")
+    return s.derive()
+
+
+SLIDING = (
+    "m (s'' - s theta'^2) = -m g cos(theta) - d s'",
+    "m (s theta'' + 2 s' theta') = N + m g sin(theta)",
+    "J theta'' = -k theta - c theta' - N s",
+    "(J + m s^2) theta'' + 2 m s s' theta' = m g s sin(theta) - k theta - c theta'",
+)
+
+
+def test_an_explained_line_is_blamed_alone_beside_a_right_balance() -> None:
+    assert metronome().check("\n".join(SLIDING), hint=0).right
+    answer = "\n".join((*SLIDING[:2], f"{SLIDING[2]} - d s' s", f"{SLIDING[3]} - d s' s"))
+    found = statuses(metronome(), answer)
+    assert found[3] == (False, False) and found.get(2, (True, False)) == (True, False)
+
+
+def test_a_right_balance_is_not_blamed_for_two_mistakes_in_another() -> None:
+    """The balance of the slider stands below the wrong one, whose force is put into it."""
+    wrong = "J theta'' = -2 k theta - c theta'/2 - N s"
+    result = SLIDING[3].replace("- k theta - c theta'", "- 2 k theta - c theta'/2")
+    found = statuses(metronome(), "\n".join((SLIDING[0], wrong, SLIDING[1], result)))
+    assert found[2] == found[3] == (False, True)
+
+
+@cache
 def boom() -> lg.Derivation:
     """A mast on a slanting spring from its tip to the ground, which lifts a weight on a rope."""
     s = lg.System("boom")

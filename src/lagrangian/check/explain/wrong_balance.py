@@ -86,7 +86,7 @@ def with_wrong_balance(
     if solved is None:
         notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
         beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
-        return _without_invented(balances, verdict if beside is None else beside)
+        return _without_invented(balances, parts, verdict if beside is None else beside)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
     plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
     blamed = Finding(
@@ -137,18 +137,21 @@ class WrongBalance:
     known: KnownPart | None = None
 
 
-def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
+def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdict: Verdict) -> Verdict:
     """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
     do not agree in their place.
 
-    Where one of these was not judged or is called right, no other is blamed alone.
+    Where one of these was not judged or is called right, no other is blamed alone, but with an explanation beside one
+    whose known ``parts`` are right.
     """
     told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
     places = left_out(balances)
     apart = [balances.lines[i] for i in places] if 1 < len(places) <= MOST_TOLD else []
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
     roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
-    alone = any(place_of(x) in roots for x in apart) and any(place_of(x) not in wrong for x in apart)
+    spared = [i for i in places if place_of(balances.lines[i]) not in wrong]
+    doubtful = any(not told or i not in parts or not parts[i].right for i in spared)
+    alone = doubtful and any(place_of(x) in roots for x in apart)
     if told == verdict.mistakes and not alone:
         return verdict
     if apart and not told:
