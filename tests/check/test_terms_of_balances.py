@@ -173,3 +173,148 @@ def test_the_acceleration_of_the_axis_is_missing_in_a_sum_of_moments() -> None:
         "In line 3, on the right-hand side, the term -l*m*cos(phi)*x'' is missing."
     )
     assert "What carries the body" in str(mistake.why) and "∂" not in str(mistake.why)
+
+
+@cache
+def collar() -> lg.Derivation:
+    """A collar on a vertical rod; a rope leads from it over a pulley at the distance h to a weight."""
+    s = lg.System("collar and weight")
+    y = s.coordinates("y")
+    m, M, h, c, k, g = s.parameters("m M h c k g")
+    length = sp.sqrt(h**2 + y**2)
+    s.particle(m, at=s.point("A", (h, -y)), name="collar")
+    s.particle(M, at=s.point("B", (0, length)), name="weight")
+    s.gravity((0, -1), g)
+    s.damper(c, deflection=length, name="dashpot")
+    s.spring(k, deflection=y, name="spring")
+    return s.derive()
+
+
+LENGTH = "l = sqrt(h^2 + y^2), z'' = y y''/l + h^2 y'^2/l^3"
+HANGING = (LENGTH, "m y'' = m g - k y - S y/l", "M z'' = S - M g - c y y'/l")
+DRAWN = "m y'' = m g - k y - (y/l) (M z'' + M g + c y y'/l)"
+
+
+def statuses(derivation: lg.Derivation, answer: str) -> dict[int, tuple[bool, bool]]:
+    """Which lines below the first are right, and which are said not to fit another one."""
+    verdict = derivation.check(answer)
+    assert not verdict.right
+    return {f.line.number: (f.status.right, bool(f.clash)) for f in verdict.findings if f.line.number > 1}
+
+
+def test_the_other_leg_of_a_slanting_rope_is_blamed_and_not_the_right_balance() -> None:
+    assert collar().check("\n".join((*HANGING, DRAWN)), hint=0).right
+    lines = changed(HANGING, 2, "m y'' = m g - k y - S h/l")
+    for answer in (lines, f"{lines}\n{DRAWN.replace('(y/l)', '(h/l)')}"):
+        found = statuses(collar(), answer)
+        assert found[2] == (False, False) and found[3] == (True, False)
+        (told,) = said(collar(), answer)
+        assert "line 2" in told and "-S*h/sqrt" in told and "should be -S*y/sqrt" in told, told
+
+
+@pytest.mark.parametrize("other", ["M z'' = S - M g", "M z'' = S - M g - 3 k l"])
+def test_of_two_wrong_balances_none_is_blamed_alone(other: str) -> None:
+    lines = changed(HANGING, 2, "m y'' = m g - k y - S h/l").replace(HANGING[2], other)
+    result = "m y'' = m g - k y - (h/l) (M z'' + M g)"
+    found = statuses(collar(), f"{lines}\n{result}")
+    assert found[2] == found[3] == (False, True)
+    told = said(collar(), f"{lines}\n{result}")
+    assert told == ["Lines 2 and 3, which have S, do not agree: at least one of them is wrong."]
+
+
+def test_balances_that_follow_from_a_wrong_acceleration_are_not_told_as_disagreeing() -> None:
+    answer = "\n".join((*HANGING, DRAWN)).replace(" + h^2 y'^2/l^3", "")
+    verdict = collar().check(answer)
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [1]
+    assert not any(f.clash for f in verdict.findings) and all("agree" not in x for x in said(collar(), answer))
+
+
+@cache
+def metronome() -> lg.Derivation:
+    """A slider on a bar that turns."""
+    s = lg.System("bar and slider")
+    theta, x = s.coordinates("theta s")
+    J, m, k, d, c, g = s.parameters("J m k d c g")
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(m, at=s.point("A", (x * sp.sin(theta), x * sp.cos(theta))), name="slider")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=theta, name="hinge")
+    s.damper(d, deflection=x, name="slide")
+    s.damper(c, deflection=theta, name="bearing")
+    return s.derive()
+
+
+SLIDING = (
+    "m (s'' - s theta'^2) = -m g cos(theta) - d s'",
+    "m (s theta'' + 2 s' theta') = N + m g sin(theta)",
+    "J theta'' = -k theta - c theta' - N s",
+    "(J + m s^2) theta'' + 2 m s s' theta' = m g s sin(theta) - k theta - c theta'",
+)
+
+
+def test_an_explained_line_is_blamed_alone_beside_a_right_balance() -> None:
+    assert metronome().check("\n".join(SLIDING), hint=0).right
+    answer = "\n".join((*SLIDING[:2], f"{SLIDING[2]} - d s' s", f"{SLIDING[3]} - d s' s"))
+    found = statuses(metronome(), answer)
+    assert found[3] == (False, False) and found.get(2, (True, False)) == (True, False)
+
+
+def test_a_right_balance_is_not_blamed_for_two_mistakes_in_another() -> None:
+    """The balance of the slider stands below the wrong one, whose force is put into it."""
+    wrong = "J theta'' = -2 k theta - c theta'/2 - N s"
+    result = SLIDING[3].replace("- k theta - c theta'", "- 2 k theta - c theta'/2")
+    found = statuses(metronome(), "\n".join((SLIDING[0], wrong, SLIDING[1], result)))
+    assert found[2] == found[3] == (False, True)
+
+
+@cache
+def boom() -> lg.Derivation:
+    """A mast on a slanting spring from its tip to the ground, which lifts a weight on a rope."""
+    s = lg.System("boom")
+    theta = s.coordinates("theta")
+    J, M, L, d, k, g, s0 = s.parameters("J M L d k g s0")
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(M, at=s.point("B", (2 * L, L * sp.sin(theta))), name="weight")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=sp.sqrt(L**2 + d**2 + 2 * L * d * sp.sin(theta)) - s0, name="guy")
+    return s.derive()
+
+
+def test_the_arm_of_a_slanting_spring() -> None:
+    lines = "s = sqrt(L^2 + d^2 + 2 L d sin(theta))\nJ theta'' = -k (s - s0) L d cos(theta)/s - S L cos(theta)"
+    lines += "\nM (L theta'' cos(theta) - L theta'^2 sin(theta)) = S - M g"
+    assert boom().check(lines, hint=0).right
+    answer = lines.replace("L d cos(theta)/s", "L cos(theta)")
+    assert statuses(boom(), answer) == {2: (False, False), 3: (True, False)}
+    (told,) = said(boom(), answer)
+    assert "line 2" in told and "(-s0 + s)" in told and "should be" in told and "*d*" in told, told
+
+
+@cache
+def roller() -> lg.Derivation:
+    """A cylinder that rolls up a slope on a rope that a drum winds."""
+    s = lg.System("roller")
+    x, phi = s.coordinates("x phi")
+    m, r, J, k, a, g = s.parameters("m r J k a g")
+    s.kinetic(J * phi.diff() ** 2 / 2)
+    centre = s.point("C", (x * sp.cos(a), x * sp.sin(a)))
+    s.rigid_body(m, m * r**2 / 2, at=centre, frame=s.frame(-x / r), name="roller")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=r * phi - x, name="rope")
+    s.torque(s.input("tau"), on=phi)
+    return s.derive()
+
+
+def test_a_balance_and_the_force_solved_from_it_in_one_line() -> None:
+    """The sign of H is wrong; half the mass in the result is not half the kinetic energy."""
+    first = "J phi'' = tau - k r (r phi - x)\n"
+    right = first + "m x'' = k (r phi - x) - H - m g sin(a)\n1/2 m r^2 x''/r = H r -> H = 1/2 m x''"
+    assert roller().check(right, hint=0).right
+    answer = right.replace("- H", "+ H") + "\n1/2 m x'' = k (r phi - x) - m g sin(a)"
+    verdict = roller().check(answer)
+    assert not verdict.right
+    (told,) = said(roller(), answer)
+    assert "H has the wrong sign" in told, told
+    wrong = [f.line.number for f in verdict.findings if not f.status.right and not f.follows]
+    assert len(wrong) == 1 and wrong[0] in (2, 3)
+    assert not any(f.status.right and f.line.number == wrong[0] for f in verdict.findings)

@@ -94,7 +94,16 @@ def _cost(truth: Reference, wrong: WrongTerm) -> float:
         there = sp.cos if factor == tangent else sp.sin
         return more + (EXCHANGED if wrong.term.has(there(tangent.args[0])) else RATIO)
     above, below = factor.as_numer_denom()
+    if _are_legs(wrong.term, above, below):
+        return more + EXCHANGED
     return more + (LETTER if below == 1 else INVERSE if above == 1 else RATIO)
+
+
+def _are_legs(term: sp.Expr, right: sp.Expr, written: sp.Expr) -> bool:
+    """Whether a term has one leg of a right triangle over its hypotenuse, h/√(h² + y²), the sine for the cosine."""
+    powers = term.as_powers_dict()
+    slanted = (x for x, n in powers.items() if n == -sp.S.Half)
+    return powers.get(written) == 1 and any(bounded.expand(x - right**2 - written**2) == 0 for x in slanted)
 
 
 # -- moments of inertia -----------------------------------------------------------------------------------------------

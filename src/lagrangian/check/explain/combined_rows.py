@@ -363,5 +363,14 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
     }
     for angle in sorted(angles, key=sp.default_sort_key)[:MOST_ANGLES]:
         listed += [sp.tan(angle), 1 / sp.tan(angle), sp.sin(angle), sp.cos(angle)]
+    lengths = [*ways, *_roots(truth)][:MOST_ANGLES]
+    listed += [f for q in lengths for x in letters for f in (q / x, x / q)]
     values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
     yield from zip(listed, values, strict=True)
+
+
+def _roots(truth: Reference) -> list[sp.Expr]:
+    """The lengths of slanting ropes and springs in the right equations: √(h² + y²)."""
+    powers = (x for row in truth.rows for x in row.atoms(sp.Pow))
+    bases = {cast("sp.Expr", x.base) for x in powers if x.exp.is_Rational and not x.exp.is_Integer}
+    return [sp.sqrt(x) for x in sorted(bases, key=sp.default_sort_key)]

@@ -52,7 +52,7 @@ def with_right_balances(
     below = [x for x in later if x not in right]
     holds = hold(truth, [*balances.lines, *map(_of_accelerations, slips)], balances.forces, below)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
-    changed = replace(verdict, findings=marked(verdict.findings, right, None, follow))
+    changed = replace(verdict, findings=marked(verdict.findings, right, (), follow))
     names = {name for name, _ in NAMES}
     blamed = any(f.status is Status.WRONG and place_of(f.line) in own for f in verdict.findings)
     explained = bool(verdict.mistakes) and not blamed  # no balance was called wrong
@@ -81,15 +81,15 @@ def _of_accelerations(wrong: WrongConstraint) -> AnsweredLine:
 def marked(
     findings: Sequence[Finding],
     right: Sequence[AnsweredLine],
-    blamed: Finding | None,
+    blamed: Sequence[Finding],
     follow: Sequence[AnsweredLine],
 ) -> tuple[Finding, ...]:
-    """The findings with one line blamed, others right, and what follows from it marked so."""
+    """The findings with some lines blamed, others right, and what follows from it marked so."""
     said = {place_of(x): Finding(x, Status.WRONG, follows=True) for x in follow}
     held = {place_of(f.line) for f in findings if f.status is not Status.WRONG and f.line.kind != "definition"}
     said = {at: x for at, x in said.items() if at not in held}
     said |= {place_of(x): Finding(x, Status.RIGHT, NOTE) for x in right}
-    said |= {} if blamed is None else {place_of(blamed.line): blamed}
+    said |= {place_of(x.line): x for x in blamed}
     found = [f for f in findings if place_of(f.line) not in said]
     for new in sorted(said.values(), key=lambda f: f.line.number):
         found = inserted(found, new)

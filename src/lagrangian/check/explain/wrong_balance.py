@@ -7,7 +7,7 @@ them, then this line is wrong, and the forces of the others tell which of its te
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias, cast
 
@@ -48,6 +48,7 @@ MOST_TOLD = 3
 MOMENT = 0.4
 """By how much likelier an arm or a sign is wrong in a moment than in a sum of forces."""
 WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
+WHY_APART = text("Draw a free-body diagram of each body: every force with its sign, every moment with its arm.")
 WHY_SOLVED = text("The lines from which this was solved are right: solve them once more, term by term.")
 ENERGIES = ("T", "V", "L")
 """Lines that an answer by Newton's laws does not have."""
@@ -85,7 +86,7 @@ def with_wrong_balance(
     if solved is None:
         notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
         beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
-        return _without_invented(balances, verdict if beside is None else beside)
+        return _without_invented(balances, parts, verdict if beside is None else beside)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
     plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
     blamed = Finding(
@@ -104,7 +105,7 @@ def with_wrong_balance(
     if verdict.mistakes and roots == {place_of(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
-    findings = marked(verdict.findings, right, blamed, follow)
+    findings = marked(verdict.findings, right, [blamed], follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
     if solved.term is None and solved.known is not None and solved.known.said is not None:
         title = None if solved.known.element is None else solved.known.element.title
@@ -136,23 +137,49 @@ class WrongBalance:
     known: KnownPart | None = None
 
 
-def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
+def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdict: Verdict) -> Verdict:
     """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
-    do not agree in their place."""
-    if not any(_of_derivatives(m) for m in verdict.mistakes):
-        return verdict
+    do not agree in their place.
+
+    Where one of these was not judged or is called right, no other is blamed alone, but with an explanation beside one
+    whose known ``parts`` are right.
+    """
     told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
-    apart = left_out(balances)
-    if not told and 1 < len(apart) <= MOST_TOLD:
-        numbers = sorted({balances.lines[i].number for i in apart})
-        listed = f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
-        names = [cast("sp.Expr", f) for f in balances.forces if any(balances.lines[i].expr.has(f) for i in apart)]
-        force = text(*[x for f in names for x in (f, ", ")][:-1])
-        what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
-        brief = text(f"Lines {listed} do not agree: one of them is wrong.")
-        told, others = (Mistake(NAME, what, WHY, 5, brief=brief),), ()
-    verdict = replace(verdict, mistakes=told, alternatives=others)
-    return verdict if told or apart else with_terms_of_a_balance(verdict)
+    places = left_out(balances)
+    apart = [balances.lines[i] for i in places] if 1 < len(places) <= MOST_TOLD else []
+    wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
+    roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    spared = [i for i in places if place_of(balances.lines[i]) not in wrong]
+    doubtful = any(not told or i not in parts or not parts[i].right for i in spared)
+    alone = doubtful and any(place_of(x) in roots for x in apart)
+    if told == verdict.mistakes and not alone:
+        return verdict
+    if apart and not told:
+        verdict, told, others = replace(verdict, sure=True), (_disagreeing(apart, balances.forces),), ()
+    findings = marked(verdict.findings, (), [_apart(x, apart) for x in apart] if alone else (), ())
+    verdict = replace(verdict, findings=findings, mistakes=told, alternatives=others)
+    return verdict if told or places else with_terms_of_a_balance(verdict)
+
+
+def _disagreeing(apart: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> Mistake:
+    """That some lines do not hold together, with whatever forces."""
+    titles = f"Lines {_listed(apart)}"
+    names = [cast("sp.Expr", f) for f in forces if any(x.expr.has(f) for x in apart)]
+    held = text(*[x for f in names for x in (f, ", ")][:-1])
+    what = text(f"{titles}, which have ", *held.parts, ", do not agree: at least one of them is wrong.")
+    return Mistake(NAME, what, WHY_APART, 5, brief=text(f"{titles} do not agree: at least one of them is wrong."))
+
+
+def _apart(line: AnsweredLine, apart: Sequence[AnsweredLine]) -> Finding:
+    """The finding of a line that does not agree with others."""
+    others = [x for x in apart if x.number != line.number]
+    return Finding(line, Status.WRONG, clash=f"line{'s' * (len(others) > 1)} {_listed(others)}" if others else "")
+
+
+def _listed(lines: Sequence[AnsweredLine]) -> str:
+    """The numbers of lines in words: 2, 3 and 5."""
+    numbers = [str(k) for k in sorted({x.number for x in lines})]
+    return " and ".join(x for x in (", ".join(numbers[:-1]), numbers[-1]) if x)
 
 
 def _of_derivatives(mistake: Mistake) -> bool:
@@ -218,7 +245,8 @@ def with_forces_of_below(
 ) -> Verdict:
     """The verdict on an answer with forces that it says itself, S₁ = m g − m z″ − S₂, above or below other balances.
 
-    Such a line is one of the balances if no other above it has the force; otherwise it was solved from these.
+    Such a line is one of the balances if no other above it has the force, or if the balance that it was solved from
+    stands in it; otherwise it was solved from these.
     """
     if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
         return verdict
@@ -227,7 +255,9 @@ def with_forces_of_below(
         return verdict
     numbers = frozenset(x.number for x in solved)
     names = {key(str(x.name)) for x in solved}
-    beside = [x for x in lines if x.number in numbers and not any(x is y for y in solved) and not x.names & names]
+    beside = [x for x in lines if x.number in numbers and not any(x is y for y in solved)]
+    dropped = {x.number for x in beside if _holds_force(x, numbers, names)}
+    beside = [x for x in beside if not x.names & names]
     try:
         again, unknown = read(numbers)
     except ParseError:
@@ -237,9 +267,17 @@ def with_forces_of_below(
         return verdict
     pairs = [(symbols[key(str(x.name))], x) for x in solved]
     said = [replace(x, kind="equation", expr=name - x.expr, sides=(name, x.expr)) for name, x in pairs]
-    later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines)]
+    later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines) and x.number not in dropped]
     own = [*again, *beside, *(x for x in said if x not in later)]
-    return with_wrong_balance(truth, filled(truth, own), verdict, filled(truth, later), judge)
+    kept = tuple(f for f in verdict.findings if not (f.status.right and _holds_force(f.line, numbers, names)))
+    asked = replace(verdict, findings=kept)  # a balance says no more than the force that was solved from it beside it
+    found = with_wrong_balance(truth, filled(truth, own), asked, filled(truth, later), judge)
+    return verdict if found is asked else found
+
+
+def _holds_force(line: AnsweredLine, numbers: Collection[int], names: set[str]) -> bool:
+    """Whether a line is a balance in which a force stands that is solved from it beside it."""
+    return line.kind == "equation" and line.number in numbers and bool(line.names & names)
 
 
 def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
