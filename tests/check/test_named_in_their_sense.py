@@ -1,0 +1,118 @@
+"""Explanations that say what was written in its own sense: rates without a turned sign, J about another axis."""
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.model import time
+
+
+def told(system: lg.Derivation, answer: str) -> str:
+    """What an explanation of a wrong answer says went wrong."""
+    verdict = system.check(answer)
+    assert not verdict.right
+    return " And: ".join(str(m.what) for m in verdict.mistakes)
+
+
+@pytest.fixture(scope="module")
+def collar() -> lg.Derivation:
+    """A collar on a rod, with a dashpot to a point beside the rod."""
+    s = lg.System("collar")
+    y = s.coordinate("y")
+    m, h, c, g = s.parameters("m h c g")
+    s.particle(m, at=s.point("A", (h, -y)), name="collar")
+    s.gravity((0, -1), g)
+    s.damper(c, deflection=sp.sqrt(h**2 + y**2), name="dashpot")
+    return s.derive()
+
+
+def test_the_rate_of_a_damper_is_told_in_the_sense_of_the_right_one(collar: lg.Derivation) -> None:
+    assert collar.check("m y'' + c y^2 y'/(h^2 + y^2) = m g", hint=0).right
+    verdict = collar.check("m y'' + c y' = m g")
+    (mistake,) = verdict.mistakes
+    assert "is taken as y'; it is y*y'/sqrt(h^2 + y^2)" in str(mistake.what), verdict.to_text()
+    assert "inner derivative" in str(mistake.why)
+
+
+@pytest.fixture(scope="module")
+def vane() -> lg.Derivation:
+    """A vane on the rim of a disc that turns steadily."""
+    s = lg.System("vane")
+    phi = s.coordinate("phi")
+    W, R, M, L, k = s.parameters("Omega R M L k")
+    out = s.frame(W * time + phi, name="vane")
+    x, y = R * sp.cos(W * time), R * sp.sin(W * time)
+    centre = s.point("G", (x + L / 2 * sp.cos(W * time + phi), y + L / 2 * sp.sin(W * time + phi)))
+    s.rigid_body(mass=M, inertia=M * L**2 / 12, at=centre, frame=out, name="vane")
+    s.spring(k, deflection=phi, name="spring")
+    return s.derive()
+
+
+CARRIED = "T = 1/2 {} (Omega + phi')^2 + 1/2 M R L Omega (Omega + phi') cos(phi) + 1/2 M R^2 Omega^2"
+
+
+def test_the_moment_of_inertia_about_the_centre_is_no_negative_multiple(vane: lg.Derivation) -> None:
+    row = "\n{} phi'' + M L/2 R Omega^2 sin(phi) + k phi = 0"
+    assert vane.check(CARRIED.format("M L^2/3") + row.format("M L^2/3"), hint=0).right
+    words = told(vane, CARRIED.format("M L^2/12") + row.format("M L^2/12"))
+    assert (
+        words
+        == "J of rigid body 'vane' is about its centre of mass: what the swing of that centre adds to J is missing."
+    )
+
+
+@pytest.fixture(scope="module")
+def drum() -> lg.Derivation:
+    """A drum that rolls with a slug in a slot through its centre."""
+    s = lg.System("drum")
+    phi, q = s.coordinates("phi s")
+    J, R, m, k = s.parameters("J R m k")
+    s.rigid_body(mass=m, inertia=J, at=s.point("C", (R * phi, 0)), frame=s.frame(-phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("P", (R * phi + q * sp.sin(phi), q * sp.cos(phi))), name="slug")
+    s.spring(k, deflection=q, name="spring")
+    return s.derive()
+
+
+ROLLING = (
+    "T = 1/2 (J + m R^2) phi'^2 + 1/2 m (R^2 phi'^2 + s'^2 + s^2 phi'^2 + 2 R phi' s' sin(phi)"
+    " + 2 R s phi'^2 cos(phi))\n"
+    "d/dt dT/dphi' = (J + 2 m R^2 + m s^2 + 2 m R s cos(phi)) phi'' + 2 m s s' phi' {}"
+    "+ m R s'' sin(phi) + m R s' phi' cos(phi)"
+)
+
+
+def test_the_factor_that_was_not_differentiated_is_told(drum: lg.Derivation) -> None:
+    right = ROLLING.format("+ 2 m R s' phi' cos(phi) - 2 m R s phi'^2 sin(phi) ")
+    assert not drum.check(right).mistakes
+    words = told(drum, ROLLING.format(""))
+    assert "the derivative of the factor 2*m*R*s*cos(phi) is missing: 2*m*R*" in words.replace("R*m", "m*R"), words
+    assert "the derivative of the factor" not in told(drum, ROLLING.format("+ 2 m R s' phi' sin(phi) "))
+
+
+@pytest.fixture(scope="module")
+def spreader() -> lg.Derivation:
+    """A vane on the rim of a disc that turns steadily, and a block along it."""
+    s = lg.System("spreader")
+    phi, q = s.coordinates("phi s")
+    W, R, M, L, m, k = s.parameters("Omega R M L m k")
+    out = s.frame(W * time + phi, name="vane")
+
+    def along(a: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        x, y = R * sp.cos(W * time), R * sp.sin(W * time)
+        return x + a * sp.cos(W * time + phi), y + a * sp.sin(W * time + phi)
+
+    s.rigid_body(mass=M, inertia=M * L**2 / 12, at=s.point("G", along(L / 2)), frame=out, name="vane")
+    s.particle(m, at=s.point("P", along(q)), name="block")
+    s.spring(k, deflection=q, name="spring")
+    return s.derive()
+
+
+def test_what_has_the_wrong_sign_in_one_equation_is_not_left_out_twice(spreader: lg.Derivation) -> None:
+    rows = (
+        "(M L^2/3 + m s^2) phi'' + 2 m s s' (phi' + Omega) {} (M L/2 + m s) R Omega^2 sin(phi) = 0\n"
+        "m s'' - m s (phi' + Omega)^2 {} + k s = 0"
+    )
+    assert spreader.check(rows.format("+", "- m R Omega^2 cos(phi)"), hint=0).right
+    words = told(spreader, rows.format("-", ""))
+    assert "has the wrong sign" in words and "of the equation of s is missing" in words, words
+    assert "left out" not in words and words.count("missing") == 1, words
