@@ -116,3 +116,24 @@ def test_what_has_the_wrong_sign_in_one_equation_is_not_left_out_twice(spreader:
     words = told(spreader, rows.format("-", ""))
     assert "has the wrong sign" in words and "of the equation of s is missing" in words, words
     assert "left out" not in words and words.count("missing") == 1, words
+
+
+@pytest.fixture(scope="module")
+def hung() -> lg.Derivation:
+    """A weight on a spring, whose support slides up a slope as prescribed."""
+    s = lg.System("hung")
+    r, th = s.coordinates("r th")
+    m, k, A, W, b, g = s.parameters("m k A Omega beta g")
+    u = A * sp.sin(W * time)
+    s.particle(m, at=s.point("P", (u * sp.cos(b) + r * sp.sin(th), u * sp.sin(b) - r * sp.cos(th))), name="weight")
+    s.spring(k, deflection=r, name="spring")
+    s.gravity((0, -1), g)
+    return s.derive()
+
+
+def test_another_angle_is_told_as_that_and_not_as_a_piece_that_nobody_wrote(hung: lg.Derivation) -> None:
+    energy = "u = A sin(Omega t)\nT = m/2 (u'^2 + r'^2 + r^2 th'^2 + 2 u' r' sin({0}) + 2 u' r th' cos({0}))"
+    assert not hung.check(energy.format("th - beta")).mistakes
+    assert told(hung, energy.format("th + beta")).endswith("the angle beta + th stands in place of -beta + th.")
+    turned = energy.replace("+ 2 u' r' sin", "- 2 u' r' sin").format("th - beta")
+    assert "the angle" not in told(hung, turned)
