@@ -137,3 +137,40 @@ def test_another_angle_is_told_as_that_and_not_as_a_piece_that_nobody_wrote(hung
     assert told(hung, energy.format("th + beta")).endswith("the angle beta + th stands in place of -beta + th.")
     turned = energy.replace("+ 2 u' r' sin", "- 2 u' r' sin").format("th - beta")
     assert "the angle" not in told(hung, turned)
+
+
+@pytest.fixture(scope="module")
+def tumbler() -> lg.Derivation:
+    """A cylinder that rolls in a drum, which turns on its own axle."""
+    s = lg.System("tumbler")
+    psi, phi = s.coordinates("psi phi")
+    J, m, R, r, c, g = s.parameters("J m R r c g")
+    centre = s.point("roller", ((R - r) * sp.sin(phi), -(R - r) * sp.cos(phi)))
+    turned = s.frame((R * psi - (R - r) * phi) / r, name="roller")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(psi, name="drum"), name="drum")
+    s.rigid_body(mass=m, inertia=m * r**2 / 2, at=centre, frame=turned, name="roller")
+    s.gravity((0, -1), g)
+    s.damper(c, deflection=psi, name="axle")
+    return s.derive()
+
+
+def test_what_stands_whole_in_an_equation_does_not_count_half(tumbler: lg.Derivation) -> None:
+    rows = (
+        "(J + m R^2/2) psi'' - m R (R - r)/2 phi'' = {0} c psi'\n"
+        "{1} m (R - r)^2 phi'' - m R (R - r)/2 psi'' + m g (R - r) sin(phi) = 0"
+    )
+    assert tumbler.check(rows.format("-", "3/2"), hint=0).right
+    words = told(tumbler, rows.format("+", ""))
+    assert "counts half" not in words and "should be 3*m*(R - r)^2*phi''/2" in words, words
+
+
+def test_sine_and_cosine_exchanged_in_both_components_of_a_weight_are_one_mistake(hung: lg.Derivation) -> None:
+    rows = (
+        "m r'' - m A Omega^2 sin(Omega t) sin(th - beta) - m r th'^2 + {0} - m g {1} = 0\n"
+        "m r^2 th'' + 2 m r r' th' - m A Omega^2 r sin(Omega t) cos(th - beta) + m g r {2} = 0"
+    )
+    assert hung.check(rows.format("k r", "cos(th)", "sin(th)"), hint=0).right
+    words = told(hung, rows.format("k r", "sin(th)", "cos(th)"))
+    assert words == "Sine and cosine are exchanged in the components of the weight of particle 'weight'."
+    words = told(hung, rows.format("2 k r", "sin(th)", "cos(th)"))
+    assert "the components of the weight" in words and "wrong sign" not in words, words
