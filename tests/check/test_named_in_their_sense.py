@@ -174,3 +174,22 @@ def test_sine_and_cosine_exchanged_in_both_components_of_a_weight_are_one_mistak
     assert words == "Sine and cosine are exchanged in the components of the weight of particle 'weight'."
     words = told(hung, rows.format("2 k r", "sin(th)", "cos(th)"))
     assert "the components of the weight" in words and "wrong sign" not in words, words
+
+
+def test_what_follows_from_a_wrong_derivative_of_an_own_motion_is_told_there(hung: lg.Derivation) -> None:
+    rows = (
+        "m r'' + m {0} sin(th - beta) - m r th'^2 + k r - m g cos(th) = 0\n"
+        "m r^2 th'' + 2 m r r' th' + m r {0} cos(th - beta) + m g r sin(th) = 0\n"
+    )
+    answer = "u = A sin(Omega t)\nu' = A Omega cos(Omega t)\nu'' = {0}\n" + rows.format("u''") + rows.format("({0})")
+    assert hung.check(answer.format("-A Omega^2 sin(Omega t)"), hint=0).right
+    verdict = hung.check(answer.format("-A Omega sin(Omega t)"))
+    assert not verdict.right
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [
+        (3, False),
+        (6, True),
+        (7, True),
+    ]
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith("In line 3, the derivative of u is "), verdict.to_text()
+    assert not hung.check(rows.format("(-A Omega sin(Omega t))")).right
