@@ -193,3 +193,25 @@ def test_what_follows_from_a_wrong_derivative_of_an_own_motion_is_told_there(hun
     (mistake,) = verdict.mistakes
     assert str(mistake.what).startswith("In line 3, the derivative of u is "), verdict.to_text()
     assert not hung.check(rows.format("(-A Omega sin(Omega t))")).right
+
+
+@pytest.fixture(scope="module")
+def sash() -> lg.Derivation:
+    """A collar on a rod, with a rope over a pulley beside it to a weight."""
+    s = lg.System("sash")
+    y = s.coordinate("y")
+    m, M, h, g, L = s.parameters("m M h g L")
+    s.particle(m, at=s.point("A", (h, -y)), name="collar")
+    s.particle(M, at=s.point("B", (0, sp.sqrt(h**2 + y**2) - L)), name="weight")
+    s.gravity((0, -1), g)
+    return s.derive()
+
+
+def test_a_wrong_height_is_one_term_in_place_of_another_whatever_heights_are_counted_from(sash: lg.Derivation) -> None:
+    energy = "V = -m g y + M g {}"
+    for level in ("", " - M g L"):
+        assert not sash.check(energy.format("sqrt(h^2 + y^2)") + level).mistakes
+        verdict = sash.check(energy.format("y") + level)
+        (mistake,) = verdict.mistakes
+        assert str(mistake.what) == "The term M*g*y stands where M*g*sqrt(h^2 + y^2) belongs.", verdict.to_text()
+        assert "height" in str(mistake.why)
