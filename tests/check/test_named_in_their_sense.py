@@ -215,3 +215,12 @@ def test_a_wrong_height_is_one_term_in_place_of_another_whatever_heights_are_cou
         (mistake,) = verdict.mistakes
         assert str(mistake.what) == "The term M*g*y stands where M*g*sqrt(h^2 + y^2) belongs.", verdict.to_text()
         assert "height" in str(mistake.why)
+
+
+def test_the_term_of_a_denominator_is_told_as_one_of_it(sash: lg.Derivation) -> None:
+    solved = "l = sqrt(h^2 + y^2)\ny'' = (m g - M g y/l - M h^2 y y'^2/l^4)/({})"
+    assert sash.check(solved.format("m + M y^2/l^2"), hint=0).right
+    words = told(sash, solved.format("m + M y/l"))
+    begins = "In the denominator of the equation of y: the term M*y/sqrt(h^2 + y^2) stands where "
+    assert words.startswith(begins) and words.endswith("belongs."), words
+    assert "denominator" not in told(sash, solved.replace("M g y/l", "M g").format("m + M y^2/l^2"))
