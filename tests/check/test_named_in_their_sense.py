@@ -224,3 +224,14 @@ def test_the_term_of_a_denominator_is_told_as_one_of_it(sash: lg.Derivation) -> 
     begins = "In the denominator of the equation of y: the term M*y/sqrt(h^2 + y^2) stands where "
     assert words.startswith(begins) and words.endswith("belongs."), words
     assert "denominator" not in told(sash, solved.replace("M g y/l", "M g").format("m + M y^2/l^2"))
+
+
+def test_where_no_rate_of_a_prescribed_motion_is_written_none_is_called_wrong(hung: lg.Derivation) -> None:
+    rows = (
+        "m r'' {0} m A Omega^2 sin(Omega t) sin(th - beta) - m r th'^2 + k r - m g cos(th) = 0\n"
+        "m r^2 th'' + 2 m r r' th' {0} m A Omega^2 r sin(Omega t) cos(th - beta) + m g r sin(th) = 0"
+    )
+    verdict = hung.check(rows.format("+"))
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what) == "What the prescribed motion adds to the equations has the wrong sign."
+    assert "second derivative" in str(mistake.why)
