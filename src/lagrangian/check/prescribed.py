@@ -172,7 +172,7 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     base, order = line.name.rstrip("'"), line.name.count("'")
     symbols: list[Any] = [d.symbol for d in truth.model.definitions if str(d.symbol.func) == base]
     if not symbols:
-        return None
+        return _of_own(truth, line)
     rate = sp.diff(symbols[0], (time, order)) if order else symbols[0]
     right = truth.expand(rate)
     what = text(rate, " is ", right, ", not ", right - line.expr, ".")
@@ -188,3 +188,25 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
 
 def _is_negative(expr: sp.Expr) -> bool:
     return not isinstance(expr, sp.Add) and expr.could_extract_minus_sign()
+
+
+def own_rate(truth: Reference, line: AnsweredLine) -> tuple[sp.Expr, sp.Expr] | None:
+    """What the derivative of a motion of the answer's own, u = A sin Ωt, is, and what a wrong line says of it."""
+    if line.kind != "identity" or line.sides is None or line.name is None:
+        return None
+    right, written = (truth.expand(x) for x in line.sides)
+    moving = [x.symbol for x in (*truth.model.coordinates, *truth.model.inputs)]
+    known = all(not x.has(*moving) and x.free_symbols <= {time, *truth.names} for x in (right, written))
+    rate = line.text.partition("=")[0].strip() != line.name
+    differs = bounded.expand(right - written) != 0 and bounded.expand(right - written - line.expr) == 0
+    return (right, written) if known and rate and differs and right.has(time) else None
+
+
+def _of_own(truth: Reference, line: AnsweredLine) -> Mistake | None:
+    """The same for the derivative of a motion that the answer gives itself."""
+    if (sides := own_rate(truth, line)) is None:
+        return None
+    right, written = sides
+    what = text(f"In line {line.number}, the derivative of {line.name} is ", right, ", not ", written, ".")
+    why = WHY_FUNCTIONS if bounded.expand(right + written) == 0 else WHY
+    return Mistake("prescribed_motion", what, why, 2, None, None, text("A prescribed motion is not right."))

@@ -16,6 +16,7 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.misconceptions import (
     effort_term_forgotten,
     force_component,
+    prescribed_sign,
     product_rule,
     reaction_forgotten,
 )
@@ -111,6 +112,10 @@ BALANCES: Mapping[str, Text] = {
 OF_STEPS: Mapping[str, Text] = {
     WHY_PART[2]: text("Which rates move this body, and how do they stand in its velocity and its angular velocity?"),
     str(WHY_FORCE): text("A force acts with its part along the motion; its moment is the force times its arm."),
+    str(prescribed_sign.WHY): text(
+        "What carries a body accelerates it, too, in the sense in which it moves; the second derivative of a sine or "
+        "cosine has the opposite sign."
+    ),
     WHY_PART[3]: text("A spring pulls by its stiffness times its deflection, a weight pulls downwards."),
 }
 """The same for what is said of every mistake in an energy, or in a force."""

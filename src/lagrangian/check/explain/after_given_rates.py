@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.below_wrong_constraints import is_spanned
 from lagrangian.check.explain.given_said import given_motions
+from lagrangian.check.prescribed import own_rate
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -35,15 +36,22 @@ def follow_from_given_rates(truth: Reference, findings: Sequence[Finding]) -> li
                 found[k] = replace(f, follows=True)
             said.setdefault(order, stated)
         if said:
-            found = _with_following(truth, found, value, said)
+            rates = [(k, x) for k in ORDERS if not isinstance(x := bounded.diff(value, *[time] * k), sp.Add)]
+            found = _with_following(truth, found, [(k, x) for k, x in rates if x.has(time)], said)
+    for f in tuple(found):
+        own = own_rate(truth, f.line) if f.status is Status.WRONG else None
+        if own is not None and not isinstance(own[0], sp.Add):
+            found = _with_following(truth, found, [(0, own[0])], {0: own[1]})
     return found
 
 
 def _with_following(
-    truth: Reference, findings: Sequence[Finding], value: sp.Expr, said: Mapping[int, sp.Expr]
+    truth: Reference,
+    findings: Sequence[Finding],
+    rates: Sequence[tuple[int, sp.Expr]],
+    said: Mapping[int, sp.Expr],
 ) -> list[Finding]:
-    """The findings, with the equations and T* that are right with what is ``said`` of the rates of ``value``."""
-    rates = [(k, x) for k in ORDERS if not isinstance(x := bounded.diff(value, *[time] * k), sp.Add) and x.has(time)]
+    """The findings, with the equations and T* that are right with what is ``said`` of the ``rates`` of a motion."""
     rows = [_with_rates(truth, row, rates, said) for row in truth.rows]
     T = _with_rates(truth, truth.T, rates, said)
 

@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.factors_held import factor_held
 from lagrangian.check.explain.misconceptions import product_rule
 from lagrangian.check.explain.own_terms import WHY, term_replaced
 from lagrangian.check.explain.spoken import in_dissipation, in_lagrangian
@@ -168,11 +169,12 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     rest, right = ([x for x in sp.Add.make_args(bounded.expand(e)) if x != 0] for e in (more, own))
     if not rest or len(right) > LONGEST:
         return None
+    above = given(truth, [x for x in lines if x.number <= line.number])
+    T = above.T if above.T is not None else truth.T
     pair = _replaced(rest, right)
     if pair is None:
-        return None
-    above = given(truth, [x for x in lines if x.number <= line.number])
-    sums = sorted((above.T if above.T is not None else truth.T).atoms(sp.Add), key=bounded.operations)
+        return factor_held(title, bounded.diff(T, truth.model.coordinates[i].rate), more, truth.model.coordinates, i)
+    sums = sorted(T.atoms(sp.Add), key=bounded.operations)
     pair = _in_sums(pair[0], sums), _in_sums(pair[1], sums)
     name, said = term_replaced(*pair)
     first, *others = said.parts

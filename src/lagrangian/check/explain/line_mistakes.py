@@ -96,9 +96,19 @@ def of_line(
         pairs = Vectors(pool, kept).pairs(values) or pairs
     found = sorted([*found, *pairs], key=lambda e: e.cost)
     own = own_term(pool, line.expr, whole, line.kind, i)
+    if own is None and line.kind == "V" and (moving := _moving_part(truth, line.expr - right)) is not None:
+        own = own_term(pool, line.expr, moving, line.kind, i)
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _moving_part(truth: Reference, rest: sp.Expr) -> Array | None:
+    """What a potential energy has too much but for constants: heights may be counted from elsewhere. None without such
+    constants."""
+    listed = sp.Add.make_args(bounded.expand(rest))
+    moving = [x for x in listed if x.has(*(c.symbol for c in truth.model.coordinates))]
+    return CompiledExpressions([sp.Add(*moving)]).at(truth.states)[0] if 0 < len(moving) < len(listed) else None
 
 
 def _of_one_force(pool: Pool, found: list[Explanation], i: int, against: Against) -> list[Explanation]:

@@ -32,6 +32,7 @@ from lagrangian.check.explain.line_mistakes import (
 )
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
+from lagrangian.check.explain.own_denominators import mistake_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reasoned import as_defined, reasoned
@@ -317,7 +318,7 @@ def _of_equations(
         return [], [_of_numerator(pool.truth, expr, x) for expr, x in numerators]
     own = with_known(pool, own_terms(pool, exprs, P, found), found, against)
     if own and sum(t.cost for t in own) + len(own) - 1 < cost:
-        return [], [t.mistake(pool.truth) for t in own]
+        return [], [mistake_of(pool.truth, t, exprs) for t in own]
     explained = [e for e in explained if e.cost <= UNNATURAL]
     if not explained and (under := denominator(pool.truth, solved, Q)) is not None:
         return [], [under]

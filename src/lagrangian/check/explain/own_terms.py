@@ -38,6 +38,9 @@ WHY_IDLE = text(
     "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
 )
 WHY_ENERGY = text("Go through this line once more, term by term: what it stands for, and what it is at special angles.")
+WHY_HEIGHT = text(
+    "A weight is multiplied by the height of its own centre of mass: how far does that rise when the coordinate grows?"
+)
 WHY_FORCE = text(
     "Ξ = Σ F·∂r/∂ξ: only the part of a force along the motion does work, and only in coordinates that move its point."
 )
@@ -89,6 +92,8 @@ class OwnTerm:
         step, element = self.step, None
         if self.instead is not None:
             step, element = self.instead[1].step, self.instead[1].element
+            if self.row is None and isinstance(element, Gravity) and self.term not in (0, -self.instead[0]):
+                why = WHY_HEIGHT
         if self.because is not None:
             element = self.because.element
         if self.effort is not None:

@@ -183,7 +183,7 @@ class Vectors:
                 if (left <= 1e-7 * (np.abs(target) + size)).all():
                     found.append((cost, int(a), int(b)))
         doubt = under.doubt if under is not None else 0.0
-        sure = [(c - _kinship(*t), t) for c, t in self._sure(sorted(found)[:60], r, size) if not _half_changed(*t)]
+        sure = [(c - _kinship(*t), t) for c, t in self._sure(sorted(found)[:60], r, size) if not self._is_no_pair(*t)]
         return [Explanation(t, c + doubt, under) for c, t in sorted(sure, key=lambda x: x[0])]
 
     def _sure(
@@ -193,6 +193,14 @@ class Vectors:
             both = self.flat[self.index[a]] * self.times[a] + self.flat[self.index[b]] * self.times[b]
             if np.abs(both - r).max() <= SMALL * size:
                 yield cost, (self._told(a), self._told(b))
+
+    def _is_no_pair(self, one: Told, other: Told) -> bool:
+        """Whether nobody makes both mistakes: an element changed in one of two, or a letter left out twice of a row."""
+        changes = [t.mistake.change for t in (one, other)]
+        left_out = [c.right for c in changes if c is not None and c.kind == "left_out_of_a_sum"]
+        places = [self.pool.places[id(t.mistake)] for t in (one, other)]
+        twice = len(left_out) == 2 and left_out[0] == left_out[1]
+        return _half_changed(one, other) or (twice and bool(self.pool.felt[places].all(axis=0).any()))
 
     def _told(self, a: int) -> Told:
         number = Fraction(float(self.times[a])).limit_denominator(LARGEST_DENOMINATOR)

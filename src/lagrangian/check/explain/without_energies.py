@@ -22,6 +22,12 @@ from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 WHY_EQUATION = text("Go through this equation once more, term by term, and mind the signs.")
 WHOLE = {"T*": "the terms of the kinetic energy", "V": "the terms of the weights and springs"}
 """What an energy is in equations."""
+GIVEN = {
+    "The rate of the prescribed motion has the wrong sign: it goes the other way.": (
+        "What the prescribed motion adds to the equations has the wrong sign."
+    )
+}
+"""What is said of a rate that no equation holds."""
 _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-slope")}
 """The kinds of lines that speak of an energy."""
 _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
@@ -75,6 +81,7 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
     if whole:
         products = r"\g<the>he terms that couple the equations by the inertia of "
         joined = [_PRODUCTS.sub(products, x) if isinstance(x, str) else x for x in joined]
+        joined = [GIVEN.get(x, x) if isinstance(x, str) else x for x in joined]
     found = [
         _IN.sub(without, x).replace(" sign: lower is less, not more", " sign") if isinstance(x, str) else x
         for x in joined

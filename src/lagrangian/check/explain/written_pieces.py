@@ -228,7 +228,9 @@ class WrittenPieces:
         """The pieces of T* that add the same to an equation, each once."""
         seen = set[Any]()
         for k, p in enumerate(self.pool.all):
-            if p.change is not None and p.change.kind == "part" and not p.change.site.single and p.element is not None:
+            if p.change is None or p.change.site.only is not None:  # the same piece, in one equation alone
+                continue
+            if p.change.kind == "part" and not p.change.site.single and p.element is not None:
                 key = id(p.element), tuple(np.round(self.pool.T[k][:3], 9))
                 if key not in seen and any(_is_near(x, row) for x in self.pool.W[k]):
                     seen.add(key)

@@ -18,6 +18,9 @@ from lagrangian.page.formula import text
 
 STEP = 6
 WHY = text("A damper feels how fast its own two ends move apart, not how fast the body that it is fixed to moves.")
+WHY_LENGTH = text(
+    "A damper feels how fast its own two ends move apart: differentiate their distance, with the inner derivative."
+)
 MOST_RATES = 12
 """The largest number of velocities that are tried for every damper."""
 SHORT = 16
@@ -39,10 +42,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         rate, b = bounded.expand(s.expand(element.rate(s.model))), s.expand(element.b)
         for other in _rates(s, rate):
             change = _changed(s, element, b * other**2 / 2)
+            said = _in_sense(s, rate, other)
             right = ("; it is ", rate) if bounded.size(rate) <= SHORT else ()
-            what = text(f"The rate of {element.title} is taken as ", other, *right, ".")
+            what = text(f"The rate of {element.title} is taken as ", said, *right, ".")
             if change:
-                yield Variant(what=what, Xi=change, element=element)
+                same = [v for v in s.v if rate.has(v)] == [v for v in s.v if other.has(v)]
+                why = WHY_LENGTH if same and rate.has(*s.q) else None
+                yield Variant(what=what, Xi=change, element=element, why=why)
                 if rate in s.v and other == _absolute(s, s.v.index(rate)):
                     together.setdefault(b, []).append((element, change, other))
         for body in s.bodies:
@@ -54,6 +60,14 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for alike in together.values():
         if len(alike) > 1:
             yield _of_several(alike)
+
+
+def _in_sense(s: Ingredients, rate: sp.Expr, other: sp.Expr) -> sp.Expr:
+    """Another rate in the sense of the right one, for its square says nothing of it: ẏ for y ẏ/l, and not −ẏ."""
+    slopes = [[bounded.diff(x, v) for v in s.v] for x in (rate, other)]
+    product = sp.Add(*[a * b for a, b in zip(*slopes, strict=True)])
+    values = CompiledExpressions([product]).at(States(s.model, 1))[0]
+    return cast("sp.Expr", -other) if np.isfinite(values).all() and values.max() < 0 else other
 
 
 def _of_several(alike: list[tuple[Damper, dict[int, sp.Expr], sp.Expr]]) -> Variant:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, partner, put
 from lagrangian.model import Element, Gravity, Spring
 from lagrangian.page.formula import Name, text
@@ -32,6 +33,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     where = "the weights" if weights else "the energies of the springs" if _are_springs(turned) else Name("V")
     for other in _swapped(s.V) if len(turned) != 1 else ():
         yield Variant(what=text("Sine and cosine are exchanged in ", where, "."), V=other - s.V)
+    yield from _in_components(s)
     yield from _in_rows(s)
     for element in s.acting:
         shares = s.shares(element)
@@ -45,6 +47,16 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 def _are_springs(elements: Sequence[Element]) -> bool:
     """Whether all elements are springs."""
     return all(isinstance(x, Spring) for x in elements)
+
+
+def _in_components(s: Ingredients) -> Iterator[Variant]:
+    """Exchange them in all components of one weight, which then are those of no height: m g sin θ and m g r cos θ."""
+    for gravity, body, V in s.weights():
+        shares = {i: bounded.diff(V, q) for i, q in enumerate(s.q)}
+        turned = {i: _swapped(x)[0] - x for i, x in shares.items() if _swapped(x)}
+        if len(turned) > 1:
+            what = text(f"Sine and cosine are exchanged in the components of the weight of {body.title}.")
+            yield Variant(what=what, rows=turned, element=gravity, stated=frozenset(), doubt=1)
 
 
 def _in_rows(s: Ingredients) -> Iterator[Variant]:
