@@ -3,7 +3,7 @@ motion. Where it says of δ what is wrong, it means that by δ in all of its lin
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -22,6 +22,8 @@ WHY = text("Differentiate by time with the chain rule: the inner derivative, suc
 WHY_FUNCTIONS = text(
     "The derivative of a sine is the cosine, that of a cosine minus the sine, times the inner derivative."
 )
+LOST = ("lost", "lost_in_a_sum", "factor_missing")
+"""The names of mistakes that say which factor is missing."""
 FUNCTIONS = "functions of time"
 """The name of a line that equates them."""
 WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
@@ -210,3 +212,10 @@ def _of_own(truth: Reference, line: AnsweredLine) -> Mistake | None:
     what = text(f"In line {line.number}, the derivative of {line.name} is ", right, ", not ", written, ".")
     why = WHY_FUNCTIONS if bounded.expand(right + written) == 0 else WHY
     return Mistake("prescribed_motion", what, why, 2, None, None, text("A prescribed motion is not right."))
+
+
+def without_repeats(truth: Reference, told: Iterable[Mistake], wrong: Iterable[AnsweredLine]) -> list[Mistake]:
+    """The mistakes without those that say again which factor a ``wrong`` derivative of an own motion lacks."""
+    sides = [x for line in wrong if (x := own_rate(truth, line)) is not None]
+    lost = [bounded.cancel(right / written) for right, written in sides if written != 0]
+    return [m for m in told if not (m.name in LOST and any(x in lost for x in m.what.parts))]
