@@ -3,7 +3,7 @@ motion. Where it says of δ what is wrong, it means that by δ in all of its lin
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -214,8 +214,12 @@ def _of_own(truth: Reference, line: AnsweredLine) -> Mistake | None:
     return Mistake("prescribed_motion", what, why, 2, None, None, text("A prescribed motion is not right."))
 
 
-def without_repeats(truth: Reference, told: Iterable[Mistake], wrong: Iterable[AnsweredLine]) -> list[Mistake]:
-    """The mistakes without those that say again which factor a ``wrong`` derivative of an own motion lacks."""
-    sides = [x for line in wrong if (x := own_rate(truth, line)) is not None]
+def with_prescribed(
+    truth: Reference, prescribed: Mapping[AnsweredLine, Mistake], told: Sequence[Mistake]
+) -> tuple[Mistake, ...]:
+    """The mistakes in lines on prescribed motions, and those ``told`` besides, without those that say again which
+    factor a derivative of an own motion lacks."""
+    sides = [x for line in prescribed if (x := own_rate(truth, line)) is not None]
     lost = [bounded.cancel(right / written) for right, written in sides if written != 0]
-    return [m for m in told if not (m.name in LOST and any(x in lost for x in m.what.parts))]
+    more = (m for m in told if not (m.name in LOST and any(x in lost for x in m.what.parts)))
+    return (*prescribed.values(), *more)
