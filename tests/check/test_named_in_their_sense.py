@@ -34,17 +34,24 @@ def test_the_rate_of_a_damper_is_told_in_the_sense_of_the_right_one(collar: lg.D
     assert "inner derivative" in str(mistake.why)
 
 
+def test_a_rate_that_is_that_of_a_coordinate_has_no_inner_derivative(vane: lg.Derivation) -> None:
+    verdict = vane.check("Q_phi = -d (phi' + Omega)")
+    (mistake,) = verdict.mistakes
+    assert "is taken as" in str(mistake.what) and "inner derivative" not in str(mistake.why), verdict.to_text()
+
+
 @pytest.fixture(scope="module")
 def vane() -> lg.Derivation:
     """A vane on the rim of a disc that turns steadily."""
     s = lg.System("vane")
     phi = s.coordinate("phi")
-    W, R, M, L, k = s.parameters("Omega R M L k")
+    W, R, M, L, k, d = s.parameters("Omega R M L k d")
     out = s.frame(W * time + phi, name="vane")
     x, y = R * sp.cos(W * time), R * sp.sin(W * time)
     centre = s.point("G", (x + L / 2 * sp.cos(W * time + phi), y + L / 2 * sp.sin(W * time + phi)))
     s.rigid_body(mass=M, inertia=M * L**2 / 12, at=centre, frame=out, name="vane")
     s.spring(k, deflection=phi, name="spring")
+    s.damper(d, deflection=phi, name="hinge")
     return s.derive()
 
 
@@ -52,7 +59,7 @@ CARRIED = "T = 1/2 {} (Omega + phi')^2 + 1/2 M R L Omega (Omega + phi') cos(phi)
 
 
 def test_the_moment_of_inertia_about_the_centre_is_no_negative_multiple(vane: lg.Derivation) -> None:
-    row = "\n{} phi'' + M L/2 R Omega^2 sin(phi) + k phi = 0"
+    row = "\n{} phi'' + M L/2 R Omega^2 sin(phi) + k phi + d phi' = 0"
     assert vane.check(CARRIED.format("M L^2/3") + row.format("M L^2/3"), hint=0).right
     words = told(vane, CARRIED.format("M L^2/12") + row.format("M L^2/12"))
     assert (
@@ -193,6 +200,8 @@ def test_what_follows_from_a_wrong_derivative_of_an_own_motion_is_told_there(hun
     (mistake,) = verdict.mistakes
     assert str(mistake.what).startswith("In line 3, the derivative of u is "), verdict.to_text()
     assert not hung.check(rows.format("(-A Omega sin(Omega t))")).right
+    both = told(hung, answer.format("-A Omega sin(Omega t)").replace("k r", "2 k r"))
+    assert both.count(" And: ") == 1 and "factor Omega" not in both, both
 
 
 @pytest.fixture(scope="module")

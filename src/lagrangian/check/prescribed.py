@@ -22,6 +22,8 @@ WHY = text("Differentiate by time with the chain rule: the inner derivative, suc
 WHY_FUNCTIONS = text(
     "The derivative of a sine is the cosine, that of a cosine minus the sine, times the inner derivative."
 )
+LOST = ("lost", "lost_in_a_sum", "factor_missing")
+"""The names of mistakes that say which factor is missing."""
 FUNCTIONS = "functions of time"
 """The name of a line that equates them."""
 WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
@@ -210,3 +212,14 @@ def _of_own(truth: Reference, line: AnsweredLine) -> Mistake | None:
     what = text(f"In line {line.number}, the derivative of {line.name} is ", right, ", not ", written, ".")
     why = WHY_FUNCTIONS if bounded.expand(right + written) == 0 else WHY
     return Mistake("prescribed_motion", what, why, 2, None, None, text("A prescribed motion is not right."))
+
+
+def with_prescribed(
+    truth: Reference, prescribed: Mapping[AnsweredLine, Mistake], told: Sequence[Mistake]
+) -> tuple[Mistake, ...]:
+    """The mistakes in lines on prescribed motions, and those ``told`` besides, without those that say again which
+    factor a derivative of an own motion lacks."""
+    sides = [x for line in prescribed if (x := own_rate(truth, line)) is not None]
+    lost = [bounded.cancel(right / written) for right, written in sides if written != 0]
+    more = (m for m in told if not (m.name in LOST and any(x in lost for x in m.what.parts)))
+    return (*prescribed.values(), *more)

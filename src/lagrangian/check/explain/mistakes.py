@@ -51,7 +51,7 @@ from lagrangian.check.explain.term_said import beside, with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.explain.written_pieces import Against, WrittenPieces
-from lagrangian.check.prescribed import of_prescribed
+from lagrangian.check.prescribed import of_prescribed, with_prescribed
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
@@ -157,7 +157,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
     of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
-    told = (*prescribed.values(), *in_written_terms(of_first, findings), *_once(own, named.told))
+    told = with_prescribed(truth, prescribed, (*in_written_terms(of_first, findings), *_once(own, named.told)))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     told, others = of_equations(as_defined(pool, told, blamed, wrong, pieces), lines), of_equations(others, lines)

@@ -47,7 +47,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"The rate of {element.title} is taken as ", said, *right, ".")
             if change:
                 same = [v for v in s.v if rate.has(v)] == [v for v in s.v if other.has(v)]
-                why = WHY_LENGTH if same and rate.has(*s.q) else None
+                why = WHY_LENGTH if same and any(s.moves(bounded.diff(rate, v)) for v in s.v) else None
                 yield Variant(what=what, Xi=change, element=element, why=why)
                 if rate in s.v and other == _absolute(s, s.v.index(rate)):
                     together.setdefault(b, []).append((element, change, other))
