@@ -15,7 +15,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
-from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES
+from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES, SPECIAL
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import moves
@@ -93,11 +93,6 @@ _LACKS = re.compile(
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
 _BRACKETED = re.compile(r"\((?P<inside>[^()=\n]{1,80}=[^()=\n]{1,60})\)[.,;]?[ \t]*$")
 """A relation in brackets at the end of a sentence."""
-_SPECIAL = re.compile(
-    r"\b(?:if|when|whenever|only|rigid[ -]body|modes?|case|wenn|falls|nur|starrkörper\w{0,12}|si|lorsque)\b",
-    re.IGNORECASE,
-)
-"""Words of special motions."""
 _SENTENCE = 200
 """The most characters of a sentence in front of a bracket."""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
@@ -187,7 +182,7 @@ def _is_aside(line: str) -> bool:
     if relation is None:
         return False
     said = line[max(0, relation.start() - _SENTENCE) : relation.end()]
-    return len(_WORD.findall(said)) > _FEWEST_WORDS and _SPECIAL.search(said) is not None
+    return len(_WORD.findall(said)) > _FEWEST_WORDS and SPECIAL.search(said) is not None
 
 
 def _blanked(text: str, remarks: Sequence[_Remark]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 _CHECKS = (
     "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
     "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
@@ -29,3 +31,8 @@ _BESIDE_FREQUENCIES = (
 )
 BESIDE_FREQUENCIES = FREQUENCIES | frozenset(_BESIDE_FREQUENCIES.split())
 """Words that may stand beside them; others say of something else what is stated."""
+SPECIAL = re.compile(
+    r"\b(?:if|when|whenever|only|rigid[ -]body|modes?|case|wenn|falls|nur|starrkörper\w{0,12}|si|lorsque)\b",
+    re.IGNORECASE,
+)
+"""Words of special motions."""
