@@ -141,8 +141,8 @@ def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdic
     """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
     do not agree in their place.
 
-    Where one of these was not judged or is called right, no other is blamed alone, but with an explanation beside one
-    whose known ``parts`` are right.
+    Where one of these was not judged or is called right, no other is blamed alone, but for a single term, or with an
+    explanation beside one whose known ``parts`` are right.
     """
     told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
     places = left_out(balances)
@@ -151,7 +151,9 @@ def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdic
     roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
     spared = [i for i in places if place_of(balances.lines[i]) not in wrong]
     doubtful = any(not told or i not in parts or not parts[i].right for i in spared)
-    alone = doubtful and any(place_of(x) in roots for x in apart)
+    own = {place_of(x) for x in apart}
+    plain = any(place_of(f.line) in own & roots and len(f.differences) == 1 for f in verdict.findings)
+    alone = doubtful and bool(own & roots) and not (plain and not told)
     if told == verdict.mistakes and not alone:
         return verdict
     if apart and not told:
