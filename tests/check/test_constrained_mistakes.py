@@ -194,7 +194,7 @@ ROWS = "m x'' = 2 lambda x\nm y'' = 2 lambda y - m g\n"
         ("2 x x'' + 2 y y'' + 2 x'^2 = 0", "constraint_acceleration_wrong", "the term 2*y'^2 is missing"),
         ("x x'' + y y'' - x'^2 - y'^2 = 0", "constraint_acceleration_wrong", "have the wrong sign"),
         ("x x' - y y' = 0", "constraint_rate_wrong", "the term -y*y' has the wrong sign"),
-        ("x^2 + y^2 = l", "constraint_wrong", "in the term -l, the factor l is missing"),
+        ("x^2 + y^2 = l", "constraint_wrong", "in the term l, the factor l is missing"),
     ],
 )
 def test_a_slip_in_a_constraint_or_its_derivative(bob: lg.Derivation, line: str, kind: str, said: str) -> None:

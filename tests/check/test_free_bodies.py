@@ -219,7 +219,7 @@ Z = M x'' + k x
         (2, "S R - Z R", "Z R - S R", "has the wrong sign"),
         (2, "S R - Z R", "S - Z", "should be"),
         (2, "S R - Z R", "S R + Z R", "R*Z has the wrong sign"),
-        (2, "- c x'/R\n", "- c x'\n", "-c*x' should be -c*x'/R"),
+        (2, "- c x'/R\n", "- c x'\n", "the force of damper 'c' has the factor R too much"),
         (2, "J x''/R =", "J x'' =", "J*x'' should be J*x''/R"),
         (3, "Z - k x", "Z + k x", "the force of spring 'k' has the wrong sign"),
     ],

@@ -168,7 +168,11 @@ PARTS = {"arm": "phi'", "half": "(s'/2)", "coil": "(phi - u)", "oil": "(phi' - u
     [
         ("arm", "(phi' - u')", "the angular velocity of rigid body 'arm' is phi', not phi' - u'"),
         ("arm", "(phi'/2)", "the angular velocity of rigid body 'arm' is phi', not phi'/2"),
-        ("half", "s'", "the component of the velocity of particle 'counterweight' along axes turned by phi is s'/2"),
+        (
+            "half",
+            "s'",
+            "the component of the velocity of particle 'counterweight' along the x axis turned by phi is s'/2",
+        ),
     ],
 )
 def test_an_energy_with_another_rate_is_told_by_the_rate(part: str, wrong: str, told: str) -> None:

@@ -69,7 +69,10 @@ def _crane(r_c: str) -> str:
 def test_a_wrong_distance_along_a_turning_jib() -> None:
     assert crane().check(_crane("e + r/2"), hint=0).right
     told = _told(crane().check(_crane("e - r/2")), 1)
-    assert "the component of the position of particle 'weight' along axes turned by ψ is e + ½ r, not e − ½ r" in told
+    assert (
+        "the component of the position of particle 'weight' along the x axis turned by ψ is e + ½ r, not e − ½ r"
+        in told
+    )
 
 
 V = "V = 1/2 k x^2 + m_b g R {}(psi)"

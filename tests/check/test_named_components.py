@@ -97,10 +97,10 @@ COMPONENTS = "v_x = {x}\nv_y = {y}\nT = 1/2 J psi'^2 + 1/2 m (({x})^2 + ({y})^2)
 @pytest.mark.slow
 def test_components_x_and_y_without_an_angle_are_along_the_axes_that_turn() -> None:
     right = table().check(COMPONENTS.format(x="s' - h psi'", y="s psi'"))
-    assert right.right and "axes turned by ψ" in " ".join(right.to_text().split())
+    assert right.right and "axis turned by ψ" in " ".join(right.to_text().split())
     verdict = table().check(COMPONENTS.format(x="s' + h psi'", y="s psi'"))
     told = " ".join(verdict.to_text().split())
-    assert not verdict.right and "axes turned by ψ is ṡ − h ψ̇, not h ψ̇ + ṡ" in told
+    assert not verdict.right and "axis turned by ψ is ṡ − h ψ̇, not h ψ̇ + ṡ" in told
     assert [f.status.right for f in verdict.findings] == [False, True, False, True]
 
 

@@ -64,7 +64,7 @@ def test_a_wrong_angular_velocity_is_the_mistake_and_the_rest_follows(drum: lg.D
     assert mistake.name == "turning_of_body" and mistake.element == "rigid body 'roll'"
     assert str(mistake.what) == (
         "Line 1 is not right: the angular velocity of rigid body 'roll' is (-R*psi' + (R - r)*phi')/r, "
-        "not (R - r)*phi'/r: the term R*psi'/r is missing."
+        "not (R - r)*phi'/r: the term -R*psi'/r is missing."
     )
     assert found(verdict) == [(1, False, False), (2, False, True), (3, True, False), (4, False, True), (5, False, True)]
 

@@ -202,7 +202,7 @@ LOST = """x'' = R phi'', lambda = -J x''/R^2 - c (phi' + th')/R
 def test_what_is_lost_when_a_constraint_is_differentiated_is_the_cause_of_what_follows(belt: lg.Derivation) -> None:
     verdict = belt.check(FORCES.format(LOST, "", ""))
     assert [str(m.what) for m in verdict.mistakes] == [
-        "Line 5 is not the derivative of velocity constraint 'rolling': the term -a0 is missing."
+        "Line 5 is not the derivative of velocity constraint 'rolling': on the right-hand side, the term a0 is missing."
     ], verdict.to_text()
     assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [5]
 

@@ -18,6 +18,8 @@ from lagrangian.page.formula import Left, Minus, Partial, Text, Total, text
 
 STEP, KINETIC = 5, 2
 """The step of the left-hand sides, and that of the kinetic energy, from which their terms come."""
+LEFT_OVER = "left_over"
+"""What cancels in the derivation, and stands in the equation: it says which derivative cancels it."""
 MOST_TOLD = 3
 """The most terms that are told in one sentence."""
 
@@ -36,7 +38,12 @@ def with_terms_of_equations(truth: Reference, lines: Sequence[AnsweredLine], ver
 
 def _by_terms(truth: Reference, mistake: Mistake, verdict: Verdict, stated: bool) -> Mistake:
     """A mistake in a derivative by the terms of the one wrong equation of its coordinate that come from T*."""
-    if mistake.step != STEP or mistake.coordinate is None or not _speaks_of_derivatives(mistake.what):
+    if (
+        mistake.name == LEFT_OVER
+        or mistake.step != STEP
+        or mistake.coordinate is None
+        or not _speaks_of_derivatives(mistake.what)
+    ):
         return mistake
     if sum(m.coordinate in (mistake.coordinate, None) and m.step in (KINETIC, STEP) for m in verdict.mistakes) > 1:
         return mistake
