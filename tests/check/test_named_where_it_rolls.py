@@ -116,7 +116,7 @@ def test_a_square_keeps_its_constant() -> None:
     ("wrong", "said"),
     [
         ("-m g cos(psi)", "−m g cos ψ should be −m g l cos ψ"),
-        ("m g l cos(psi)", "m g l cos ψ should be −m g l cos ψ"),
+        ("m g l cos(psi)", "m g l cos ψ has the wrong sign"),
         ("0", "the term −m g l cos ψ is missing"),
     ],
 )

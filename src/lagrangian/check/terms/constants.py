@@ -28,13 +28,17 @@ def without_constants(truth: Reference, differing: Sequence[TermDifference]) -> 
         constant = sp.Add(*[x for x in sp.Add.make_args(right) if not x.has(*moving)])
         kept = written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written))
         if constant != 0 and (term := _without_addend(d, moving)) is not None:
-            yield replace(d, term=term)
+            yield _with_term(d, term)
             continue
         if constant in (0, right) or kept or any(isinstance(x.base, sp.Add) for x in d.term.atoms(sp.Pow)):
             yield d  # ½ k (s − s₀)² stays as it is
             continue
-        term = cast("sp.Expr", sp.factor_terms(right - constant))
-        yield replace(d, term=term, kind="sign" if bounded.expand(term + written) == 0 else d.kind)
+        yield _with_term(d, cast("sp.Expr", sp.factor_terms(right - constant)))
+
+
+def _with_term(d: TermDifference, term: sp.Expr) -> TermDifference:
+    """The difference with another right term: of the kind "sign" if what was written is its negative."""
+    return replace(d, term=term, kind="sign" if bounded.expand(term + d.written) == 0 else d.kind)
 
 
 def _without_addend(d: TermDifference, moving: Sequence[sp.Basic]) -> sp.Expr | None:

@@ -325,9 +325,13 @@ class LetterChanges:
 
 
 def _is_of_whole(site: Site, effect: Site) -> bool:
-    """Whether a change does something in each energy that a site names: not in the weight alone of "the kinetic energy
-    and the weight", of which a narrower site has it."""
-    return not effect.empty and bool(effect.T and effect.V) == bool(site.T and site.V)
+    """Whether a change does something in two of T*, V and Ξ where a site names both energies, and else not in both
+    energies: what changes the weight alone of "the kinetic energy and the weight" a narrower site has."""
+    if effect.empty:
+        return False
+    if site.T and site.V:
+        return sum(map(bool, (effect.T, effect.V, any(effect.Xi.values())))) >= 2
+    return not (effect.T and effect.V)
 
 
 def _exchanged(m: tuple[tuple[int, int], ...], a: int, b: int) -> tuple[tuple[int, int], ...]:
