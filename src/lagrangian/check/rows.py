@@ -69,6 +69,11 @@ class RowComparison:
     rank: int
 
 
+def same_values(one: Array, other: Array, near: float = 1e-9) -> bool:
+    """Whether values are those of another expression: their largest difference is at most ``near`` of its largest."""
+    return bool(np.abs(one - other).max() <= near * np.abs(other).max())
+
+
 def compare(
     truth: Reference, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic, Array] | None = None
 ) -> RowComparison:

@@ -17,6 +17,7 @@ from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
 from lagrangian.check.reference import Reference, terms
+from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
 from lagrangian.records import dataclass
 
@@ -148,7 +149,7 @@ def _other_inertias(truth: Reference, expr: sp.Expr, wrong: Array, values: Mappi
                     continue
                 factor = sp.Abs(number)
                 missing = CompiledExpressions([t * (1 - factor)]).at(truth.states, values)[0]
-                if _same(wrong, missing):
+                if same_values(missing, wrong, NEAR):
                     yield Mend(OTHER_INERTIA, WrongTerm(t, cast("sp.Expr", factor)))
 
 
@@ -220,8 +221,3 @@ def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
     yield from ((1.0, 1 / x) for x in lengths)
     yield from ((1.0, cast("sp.Expr", x * y)) for x in lengths for y in angles)
     yield from ((1.0, cast("sp.Expr", x * y)) for x, y in combinations_with_replacement(lengths, 2))
-
-
-def _same(one: Array, other: Array) -> bool:
-    """Whether values are those of another expression."""
-    return bool(np.abs(one - other).max() <= NEAR * np.abs(one).max())

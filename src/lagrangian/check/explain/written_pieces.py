@@ -18,6 +18,7 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.search import Explanation, Told, without_constant
+from lagrangian.check.rows import same_values
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import RigidBody, time
@@ -179,7 +180,7 @@ class WrittenPieces:
         each should count so often."""
         sign = -1.0 if line.kind == "L" and piece.ledger == "V" else 1.0
         every = self.pool.kept("right pieces", self._pieces)
-        alike = [p for p in every if p.ledger == piece.ledger and _is_near(p.values, piece.values)]
+        alike = [p for p in every if p.ledger == piece.ledger and same_values(p.values, piece.values)]
         others = [p for p in alike if not any(p is x for x in changed)]
         there = line.like(sign * piece.values)
         of_others = [x for x in there if any(_letters(sp.Tuple(*x)) <= p.letters for p in others)]
@@ -191,7 +192,7 @@ class WrittenPieces:
             return times == 0 or not line.like(sign * float(times) * piece.values)
         if times == 0 or piece.ledger == "V":
             return False
-        taken = [p for p in every if p.ledger == "T" and _is_near(p.values, float(times) * piece.values)]
+        taken = [p for p in every if p.ledger == "T" and same_values(p.values, float(times) * piece.values)]
         left = sorted(line.like(sign * float(times) * piece.values), key=_simplicity)[len(taken) :]
         return bool(left) and all(self._has_half(x, piece, times) for x in left)
 
@@ -214,7 +215,7 @@ class WrittenPieces:
         """Whether two expressions have the same values."""
         exprs = [self.truth.put(self.truth.expand(x)) for x in (one, other)]
         a, b = CompiledExpressions(exprs).at(self.truth.states)
-        return _is_near(a, b)
+        return same_values(a, b)
 
     def _moves(self, row: Array, times: Fraction) -> bool:
         """Whether what a piece of T* adds to an equation stands in one in full, and in no other way."""
@@ -232,7 +233,7 @@ class WrittenPieces:
                 continue
             if p.change.kind == "part" and not p.change.site.single and p.element is not None:
                 key = id(p.element), tuple(np.round(self.pool.T[k][:3], 9))
-                if key not in seen and any(_is_near(x, row) for x in self.pool.W[k]):
+                if key not in seen and any(same_values(x, row) for x in self.pool.W[k]):
                     seen.add(key)
                     yield p
 
@@ -268,10 +269,6 @@ def _turns(told: Told) -> bool:
 def _letters(expr: sp.Basic) -> frozenset[Any]:
     """The constants in an expression."""
     return frozenset(expr.free_symbols - {time})
-
-
-def _is_near(one: Array, other: Array) -> bool:
-    return bool(np.abs(one - other).max() <= NEAR * np.abs(other).max())
 
 
 def _simplicity(factors: Factors) -> int:

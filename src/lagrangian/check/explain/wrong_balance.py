@@ -35,7 +35,7 @@ from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
 from lagrangian.derive.sampling import Array
-from lagrangian.errors import ParseError
+from lagrangian.errors import ParseError, listed
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.read.letters import key
@@ -180,8 +180,7 @@ def _apart(line: AnsweredLine, apart: Sequence[AnsweredLine]) -> Finding:
 
 def _listed(lines: Sequence[AnsweredLine]) -> str:
     """The numbers of lines in words: 2, 3 and 5."""
-    numbers = [str(k) for k in sorted({x.number for x in lines})]
-    return " and ".join(x for x in (", ".join(numbers[:-1]), numbers[-1]) if x)
+    return listed([str(k) for k in sorted({x.number for x in lines})])
 
 
 def _of_derivatives(mistake: Mistake) -> bool:

@@ -79,7 +79,7 @@ _FRACTION = r"\\[dt]?frac\s?"
 _LATEX_DOT = r"\\partial\s?\\dot\s?[^{}=]{0,20}(?:\{[^{}]{1,20}\}[^{}=]{0,20}){0,2}"
 _LATEX_SLOPE = (
     rf"(?P<slope>{_FRACTION}\{{\\partial\s?{_ENERGY}\s?\}}\s?\{{{_LATEX_DOT}\}}"
-    rf"|\\partial\s?{_ENERGY}\s?/\s?{_LATEX_DOT}?)\s{{0,4}}&?\s{{0,4}}="
+    rf"|\\partial\s?{_ENERGY}\s?/\s?{_LATEX_DOT})\s{{0,4}}&?\s{{0,4}}="
 )
 _LATEX_ALONE = (
     rf"(?P<alone>{_FRACTION}\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?\}}\s?\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?t\s?\}})"

@@ -114,7 +114,8 @@ _UNIT = re.compile(
 )
 """The unit of what stands in front of it, at the end of a statement."""
 _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
-_ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
+_ROMAN = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII"]
+_ORDERS = (_ROMAN, list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
 """How equations are numbered in letters."""
 _FAR_BEHIND = re.compile(
     rf"(?<![ \t])(?:[ ]{{2}}|[ ]?\t)[ \t]*+[(\[]\s*+(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*+[)\]]{_END}"
@@ -124,7 +125,6 @@ _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}
 
 
 _COUNTED = re.compile(r"[ \t]{0,3}+(\d{1,2}|[IVX]{1,4})[ \t]{2,}+(?=[^\s=+*/^-])")
-_ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII")
 FEWEST_STEPS = 2
 """No more numbers than these far in front of lines count no steps."""
 

@@ -15,6 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import same_values
 from lagrangian.check.terms.pieces import Summand, WrittenTerm, motion, pieces, rates, written_terms
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.records import dataclass
@@ -22,8 +23,6 @@ from lagrangian.records import dataclass
 MOST_CANDIDATES = 12
 MOST_ALIKE = 8
 """The most terms and pieces with the same motion that are divided by others."""
-SMALL = 1e-9
-"""The relative size of a difference that is rounding."""
 PART = 0.9
 """The vote of terms of which only all pieces agree one by one, or their share of it."""
 UNLIKELY = 1.5
@@ -77,7 +76,7 @@ def _votes(own: _Groups, right: _Groups, accelerations: Sequence[sp.Expr]) -> fl
     votes = 0.0
     for of_rates, motions in own.of.items():
         weight = 1.01 if of_rates.has(*accelerations) else 1.0
-        if of_rates in right.of and _same(own.whole(of_rates), right.whole(of_rates)):
+        if of_rates in right.of and same_values(own.whole(of_rates), right.whole(of_rates)):
             votes += weight * len(motions)
             continue
         others = right.of.get(of_rates, {})
@@ -115,10 +114,6 @@ def _vote(own: Array, right: Array) -> float:
     """1 for terms that are right as a whole, otherwise the share of them that is found among the right ones."""
     if not len(right):
         return 0.0
-    if _same(own.sum(axis=0), right.sum(axis=0)):
+    if same_values(own.sum(axis=0), right.sum(axis=0)):
         return 1.0
-    return PART * sum(any(_same(x, y) for y in right) for x in own) / max(len(own), len(right))
-
-
-def _same(one: Array, other: Array) -> bool:
-    return bool(np.abs(one - other).max() <= SMALL * np.abs(one).max())
+    return PART * sum(any(same_values(x, y) for y in right) for x in own) / max(len(own), len(right))
