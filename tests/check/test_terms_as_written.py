@@ -170,3 +170,16 @@ def test_what_belongs_there_has_the_form_of_what_was_written(right: str, wrong: 
     assert mast().check(answer).right
     (found,) = told(mast(), answer.replace(right, wrong))
     assert found.startswith("2: ") and said in found, found
+
+
+def test_a_slope_of_the_energies_is_told_by_what_each_element_adds() -> None:
+    """Without the inner derivative −½ R of the spring's deflection; the weight of the block is right."""
+    s = lg.System("hoist")
+    theta, x = s.coordinates("theta x")
+    J, R, M, m, k, g = s.parameters("J R M m k g")
+    s.kinetic((J + M * R**2 / 4) * theta.diff() ** 2 / 2 + m * x.diff() ** 2 / 2)
+    s.potential(-M * g * R * theta / 2 - m * g * x)
+    s.spring(k, deflection=x - R * theta / 2)
+    row = "(J + M R^2/4) theta'' - M g R/2 - k (x - R theta/2) = 0\nm x'' - m g + k (x - R theta/2) = 0"
+    found = told(s.derive(), f"∂L/∂theta = M g R/2 + k (x - R theta/2)\n{row}")
+    assert found == ["1 (∂ℒ/∂ξ of theta): k (x − ½ R θ) should be ½ k R (x − ½ R θ)"]

@@ -76,6 +76,17 @@ def _by_elements(truth: Reference, index: int | None) -> Iterator[Sequence[sp.Ex
     own = [(o.step, truth.put(o.share)) for o in origins if o.coordinate == name]
     yield [-x if step == 6 else x for step, x in own]
     yield [x for step, x in own if step == 6]
+    yield list(_slopes(truth, index))
+
+
+def _slopes(truth: Reference, index: int) -> Iterator[sp.Expr]:
+    """What the elements add to ∂ℒ/∂ξ, if their energies are short."""
+    model = truth.model
+    q = model.coordinates[index].symbol
+    for e in model.elements:
+        for sign, energy in ((1, e.kinetic(model)), (-1, e.potential(model))):
+            if energy is not None and bounded.size(energy) <= LONGEST and energy.has(q):
+                yield cast("sp.Expr", sign * sp.diff(truth.expand(energy), q))
 
 
 def _products(truth: Reference, term: sp.Expr) -> Sequence[sp.Expr]:
