@@ -107,8 +107,7 @@ def _letters(truth: Reference, element: Element) -> set[sp.Basic]:
     if isinstance(element, Gravity):
         return letters_of_gravity(truth)
     if isinstance(element, (Force, Torque)):
-        sizes = list(element.value) if isinstance(element.value, (list, tuple, sp.MatrixBase)) else [element.value]
-    else:
-        sizes = [element.k] if isinstance(element, Spring) else [element.b] if isinstance(element, Damper) else []
-    told = (truth.expand(sp.sympify(x)) for x in sizes if x is not None)
-    return set[sp.Basic]().union(*(bounded.letters(x) for x in told)) - {time}
+        told = truth.expand(sp.Add(*sp.Matrix([element.value]).flat()))
+        return bounded.letters(told) - {time}
+    sizes = [element.k] if isinstance(element, Spring) else [element.b] if isinstance(element, Damper) else []
+    return set[sp.Basic]().union(*(bounded.letters(truth.expand(sp.sympify(x))) for x in sizes if x is not None))
