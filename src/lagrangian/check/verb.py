@@ -15,6 +15,7 @@ import sympy as sp
 from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
+from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.origins import with_origins
@@ -275,7 +276,11 @@ def _program(answer: Answer) -> Answer | None:
 
 
 def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
-    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say."""
+    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say; what it
+    gives the inputs is no mistake."""
+    with suppress(ParseError):
+        if answer.opened is not None and _judged(derivation, answer.opened())[1].right:
+            return None
     try:
         computed = None if answer.computed is None else answer.computed()
         verdict = None if computed is None else _judged(derivation, computed)[1]
@@ -283,6 +288,8 @@ def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
             return None
         if unexplained(derivation, computed, verdict) or any(u.symbol.is_Symbol for u in computed.unknown):
             return None  # names that its comments may explain
+        if only_drives(truth_of(derivation), filled(truth_of(derivation), check.lines_of(computed))):
+            return None
     except ParseError:
         return None
     return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed
