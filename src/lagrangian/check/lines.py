@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
@@ -15,9 +16,14 @@ from lagrangian.check.reading import Answer, generalized_force
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
-from lagrangian.errors import ModelError
+from lagrangian.errors import ModelError, Place
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
+
+LONGEST = 160
+"""The most characters in front of a statement that are read as words about it."""
+_ABOUT = re.compile(r"[ \t,]*+[(%#]?[ \t]*+(?P<about>(?:about|around|um|bezüglich)[ ][^=:,;.()\n]{1,60})")
+_SENTENCE = re.compile(r"[.;|][ \t]")
 
 
 def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
@@ -32,8 +38,19 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
         told = (stated.kind, expr, number, stated.name, stated.text, beside, names, pushing)
         sides = None if stated.lhs is None else (sp.sympify(stated.lhs), sp.sympify(stated.rhs))
-        found.append(AnsweredLine(*told, sides, stated.summands))
+        found.append(AnsweredLine(*told, sides, stated.summands, _words_around(stated.place, stated.text)))
     return tuple(found)
+
+
+def _words_around(place: Place | None, written: str) -> str:
+    """The words of the same sentence in front of a statement, before any formula, and "about the hinge" behind it."""
+    if place is None or place.text is None or place.column is None:
+        return ""
+    start = place.column - 1
+    before = _SENTENCE.split(place.text[max(0, start - LONGEST) : start])[-1].partition("=")[0]
+    own = place.text.startswith(written, start)
+    behind = _ABOUT.match(place.text, start + len(written)) if own and written else None
+    return " ".join((before if behind is None else f"{before} {behind['about']}").split())
 
 
 def lines_from(things: object) -> tuple[AnsweredLine, ...]:

@@ -15,7 +15,9 @@ import sympy as sp
 from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
+from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
+from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
@@ -155,7 +157,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
                 if not other.program and (computed := _contradicting(derivation, answer)) is not None:
                     return _of_readings(derivation, computed, hint)
-                return _told(verdict, other, decides.notes)
+                return _told(_apart(derivation, other, verdict), other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
@@ -188,7 +190,16 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked)
-    return _told(fitting(_with_origins(derivation, answer, verdict, hint)), answer, decides.notes)
+    verdict = _apart(derivation, answer, fitting(_with_origins(derivation, answer, verdict, hint)))
+    return _told(verdict, answer, decides.notes)
+
+
+def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:
+    """The verdict without calling balances right that only are so together."""
+    if answer.program or not answer.unknown:
+        return verdict
+    truth = truth_of(derivation)
+    return with_balances_apart(truth, filled(truth, check.lines_of(answer)), verdict)
 
 
 def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
@@ -265,7 +276,11 @@ def _program(answer: Answer) -> Answer | None:
 
 
 def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
-    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say."""
+    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say; what it
+    gives the inputs is no mistake."""
+    with suppress(ParseError):
+        if answer.opened is not None and _judged(derivation, answer.opened())[1].right:
+            return None
     try:
         computed = None if answer.computed is None else answer.computed()
         verdict = None if computed is None else _judged(derivation, computed)[1]
@@ -273,6 +288,8 @@ def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
             return None
         if unexplained(derivation, computed, verdict) or any(u.symbol.is_Symbol for u in computed.unknown):
             return None  # names that its comments may explain
+        if only_drives(truth_of(derivation), filled(truth_of(derivation), check.lines_of(computed))):
+            return None
     except ParseError:
         return None
     return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed

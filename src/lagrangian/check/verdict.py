@@ -60,6 +60,8 @@ class AnsweredLine(Brief):
     sides: tuple[sp.Expr, sp.Expr] | None = field(default=None, repr=False, compare=False)
     summands: tuple[tuple[tuple[sp.Expr, ...], ...], ...] = field(default=(), compare=False, repr=False)
     """Its terms with their factors as they are written; see `reading.summands`."""
+    words: str = field(default="", compare=False, repr=False)
+    """The words around it in the same line: "velocity of the bob", "about the hinge"."""
 
     @property
     def title(self) -> str:

@@ -10,6 +10,7 @@ from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
 from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import PLACED, right_quantities
+from lagrangian.check.explain.which_said import as_said, letters_meant
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, inserted
 from lagrangian.page.formula import text
@@ -59,10 +60,12 @@ def with_right_definitions(
             parts.setdefault((line.number, line.text), []).append(line)
     found, turned = list(findings), along_turned_axes(truth, lines)
     senses = senses_of(truth, columns(lines))
+    alone = [(x, _right(truth, x, id(x) in turned)) for same in parts.values() for x in same]
+    letters, of_line = letters_meant(alone, truth), {id(x): right for x, right in alone}
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x, senses) for x in held] or [
-            _right(truth, line, id(line) in turned) for line in same
+        every = [as_said(truth, x[0], right_columns(truth, x, senses), letters) for x in held] or [
+            as_said(truth, x, of_line[id(x)], letters) for x in same
         ]
         if not all(every):
             continue

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import product
 
 import numpy as np
@@ -61,13 +62,10 @@ class KnownPart:
 
 def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> dict[int, KnownPart]:
     """What is known in those of some lines that are balances of bodies, by the place of the line."""
-    none = dict.fromkeys(forces, np.zeros(truth.states.size))
-    bodies = free_bodies(truth)
-    factors, alike = _factors(truth), _alike(truth)
+    factors = _factors(truth)
     matches: dict[int, Match] = {}
     for i, x in enumerate(lines):
-        found = [m for m in bodies.matches(x.expr, none) if _is_plain(m, _factor(factors, m.scale), alike)]
-        if found:
+        if found := plain_matches(truth, x.expr, forces):
             matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
     own = {i: bool(forces) and lines[i].expr.has(*forces) for i in matches}
@@ -102,6 +100,14 @@ def _part(
 
 def _missing(elements: Collection[Element]) -> list[str | sp.Expr]:
     return ["are missing" if len(elements) > 1 else "is missing"]
+
+
+def plain_matches(truth: Reference, line: sp.Expr, forces: Collection[sp.Basic]) -> list[Match]:
+    """The balances of bodies of which a line, with ``forces`` of its own, is a multiple in its inertia by a plain
+    factor."""
+    none = dict.fromkeys(forces, np.zeros(truth.states.size))
+    factors, alike = _factors(truth), _alike(truth)
+    return [m for m in free_bodies(truth).matches(line, none) if _is_plain(m, _factor(factors, m.scale), alike)]
 
 
 def _is_plain(match: Match, scale: sp.Expr | None, alike: set[sp.Expr]) -> bool:
@@ -247,6 +253,7 @@ def _wrong_by(times: sp.Expr, *, several: bool) -> list[str | sp.Expr]:
     return [f"{have} the factor ", above, " in place of ", below]
 
 
+@lru_cache(maxsize=8)
 def _factors(truth: Reference) -> dict[sp.Expr, Array]:
     """What a line may be multiplied by, with its values for every set of parameters."""
     letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]

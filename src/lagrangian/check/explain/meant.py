@@ -74,6 +74,18 @@ def _is_along_fixed_axes(name: str) -> bool:
     return stem in FIXED or (index not in ("xi", "zeta") and (index[:1] in FIXED or index[-1:] in FIXED))
 
 
+def axis_of(name: str) -> str | None:
+    """The fixed axis of which a name is, by its letter or by one at either end of its index; None for others."""
+    if " " in name:
+        return None
+    stem, index = _split(name)
+    if stem in FIXED:
+        return stem
+    if stem not in ("v", "a") or not _is_along_fixed_axes(name):
+        return None
+    return index[0] if index[0] in FIXED else index[-1]
+
+
 def axes_of(name: str) -> str | None:
     """What a velocity's component along x, y or z belongs to, its letter and the rest of its index; None for others."""
     stem, index = _split(name)
@@ -114,6 +126,12 @@ def is_about_centre(name: str, body: Body, model: Model) -> bool:
     index = _split(name)[1]
     named = {b.at.name for b in model.bodies} | {p.name for p in model.points}
     return bool(index) and (index == body.at.name or (index in CENTRES and index not in named))
+
+
+def is_about_point(name: str, body: Body, model: Model) -> bool:
+    """Whether the index of a moment of inertia means a point of the system other than the body's centre of mass."""
+    index = _split(name)[1]
+    return bool(index) and index != body.at.name and index in {p.name for p in model.points}
 
 
 def _split(name: str) -> tuple[str, str]:

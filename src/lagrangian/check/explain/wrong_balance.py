@@ -157,13 +157,13 @@ def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdic
     if told == verdict.mistakes and not alone:
         return verdict
     if apart and not told:
-        verdict, told, others = replace(verdict, sure=True), (_disagreeing(apart, balances.forces),), ()
-    findings = marked(verdict.findings, (), [_apart(x, apart) for x in apart] if alone else (), ())
+        verdict, told, others = replace(verdict, sure=True), (disagreeing(apart, balances.forces),), ()
+    findings = marked(verdict.findings, (), [clashing(x, apart) for x in apart] if alone else (), ())
     verdict = replace(verdict, findings=findings, mistakes=told, alternatives=others)
     return verdict if told or places else with_terms_of_a_balance(verdict)
 
 
-def _disagreeing(apart: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> Mistake:
+def disagreeing(apart: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> Mistake:
     """That some lines do not hold together, with whatever forces."""
     titles = f"Lines {_listed(apart)}"
     names = [cast("sp.Expr", f) for f in forces if any(x.expr.has(f) for x in apart)]
@@ -172,7 +172,7 @@ def _disagreeing(apart: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> M
     return Mistake(NAME, what, WHY_APART, 5, brief=text(f"{titles} do not agree: at least one of them is wrong."))
 
 
-def _apart(line: AnsweredLine, apart: Sequence[AnsweredLine]) -> Finding:
+def clashing(line: AnsweredLine, apart: Sequence[AnsweredLine]) -> Finding:
     """The finding of a line that does not agree with others."""
     others = [x for x in apart if x.number != line.number]
     return Finding(line, Status.WRONG, clash=f"line{'s' * (len(others) > 1)} {_listed(others)}" if others else "")

@@ -141,6 +141,8 @@ class Answer:
     """Whether these are the statements of a program that was carried out."""
     computed: Callable[[], Answer] | None = field(default=None, repr=False, compare=False)
     """The equations of motion that the program computes which this answer is, without its comments."""
+    opened: Callable[[], Answer] | None = field(default=None, repr=False, compare=False)
+    """What the program states with its inputs as they are; `ParseError` if it closes no loop."""
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from lark import Token, Tree
 
@@ -17,16 +17,17 @@ from lagrangian.read.letters import key, undotted
 def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
     """Return the letters of energies that statements, given by their sides, give a value that is no energy.
 
-    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, and a D of
-    positions if any line does; and those that an equation with accelerations uses alone, or whose rate the answer
-    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value, P = F x' - b theta'^2, and K and R are
-    forces if there are none, K = k (x - u), and an equation of motion uses them, or neither a square nor an inertia is
-    in them.
+    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, a D of positions
+    if any line does, and a D of constants alone beside no T or L; and those that an equation with accelerations uses
+    alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value,
+    P = F x' - b theta'^2, and K and R are forces if there are none, K = k (x - u), and an equation of motion uses them,
+    or neither a square nor an inertia is in them.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
     first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
+    energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
     found = set(_used_as_names(statements, first, subjects))
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
@@ -47,6 +48,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if known and not any(_is_energy(x, s, str(named[0]), model) for x, s in zip(first, statements, strict=True)):
             found.add(str(named[0]))  # the force of a spring, K = k (x - l sin θ), of which every name has a value
         meant = [name for x in listed for name in names.scope.meanings(x)[0]]
+        if kind == "D" and not energies and _is_constant(sides, listed, meant, given, model):
+            found.add(key(str(named[0])))
+            continue
         if kind == "D" and len(meant) == len(listed) and any(c.name in meant for c in model.coordinates):
             held = (str(x) for s in statements if s is not sides for side in s for x, _ in names_in(side))
             found |= {key(str(named[0]))} if str(named[0]) in held else set()  # R = e + l cos(theta) is an arm
@@ -60,6 +64,22 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         ):
             found.add(key(str(named[0])))
     return frozenset(found)
+
+
+def _is_constant(
+    sides: Sequence[Tree], listed: Sequence[str], meant: Sequence[str], given: Collection[str], model: Model
+) -> bool:
+    """Whether a D is a damping matrix of one row, [b], or a ratio, b/(2 sqrt(k m)), and no function of rates: it has
+    letters of parameters alone or, as the fourth matrix beside A, B and C, is 0, as is [0]."""
+    if listed:
+        constants = {p.name for p in model.parameters}
+        return len(meant) == len(listed) and constants.issuperset(meant)
+    return _is_bracketed(sides[-1]) or {"A", "B", "C"} <= set(given)
+
+
+def _is_bracketed(side: Tree) -> bool:
+    """Whether a value is a sum in brackets alone."""
+    return sum(tree.data == "sum" for tree in side.iter_subtrees()) > 1
 
 
 def _is_energy(named: tuple[Token, int] | None, sides: Sequence[Tree], letter: str, model: Model) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -10,6 +11,7 @@ import sympy as sp
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.carried_out.stated import CarriedOut, carried_out
+from lagrangian.check.reading.carried_out.values import NAME
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.marked_values import ValueMarks, with_marks
 from lagrangian.check.reading.programs.marks import in_comment
@@ -20,12 +22,20 @@ CARRIED_OUT = "The program was carried out on symbols, and what it computes was 
 """The note on a program whose lines are not read as they stand."""
 COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
+SCALED = "What the program computes was not judged: it is in quantities without dimensions."
+_SCALED = re.compile(
+    r"\b(?:(?:dimension|unit)less|non-?[ ]?dimensional\w{0,8}|without dimensions?|dimensionslos\w{0,2}|normiert\w{0,2}"
+    r"|adimensional\w{0,2}|adimensionn\w{0,4})\b",
+    re.IGNORECASE,
+)
+
 
 def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
     """Return what ``read`` makes of the text of a program, or of what it states when it is carried out, where it states
     an equation of motion in comments at most."""
     by_steps = partial(_stated_by_steps, program, text, model, read)
     computed = partial(read, program.motion)
+    opened = partial(_opened, text, model, read)
     typed: Answer | ParseError
     try:
         typed = read(text)
@@ -33,6 +43,8 @@ def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[s
         typed = error
     moving = [] if isinstance(typed, ParseError) or typed.doubt is not None else equations_of_motion(typed)
     if all(in_comment(text, x.place) for x in moving):
+        if moving and isinstance(typed, Answer) and _is_scaled(program, text, model):
+            return replace(typed, notes=(*typed.notes, SCALED))
         try:
             steps = by_steps()
         except ParseError:
@@ -41,10 +53,18 @@ def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[s
         else:
             comments = typed
             if isinstance(comments, ParseError) or not moving:
-                return steps
-            return replace(steps, others=(lambda: comments,), computed=computed)
+                return replace(steps, others=(opened,))
+            return replace(steps, others=(opened, lambda: comments), computed=computed, opened=opened)
     assert isinstance(typed, Answer)
-    return replace(typed, others=(*typed.others, by_steps), computed=computed)
+    if _is_scaled(program, text, model):
+        return replace(typed, notes=(*typed.notes, SCALED))
+    return replace(typed, others=(*typed.others, by_steps), computed=computed, opened=opened)
+
+
+def _is_scaled(program: CarriedOut, text: str, model: Model) -> bool:
+    """Whether a program says that it computes in quantities without dimensions, and has no parameter of the system."""
+    said = set(NAME.findall(program.motion))
+    return _SCALED.search(text) is not None and said.isdisjoint(p.name for p in model.parameters)
 
 
 def equations_of_motion(answer: Answer) -> list[AnswerLine]:
@@ -62,6 +82,23 @@ def _stated_by_steps(program: CarriedOut, text: str, model: Model, read: Callabl
         return _read_steps(again, read)
 
     return replace(_read_steps(program, read), marked=lambda: with_marks(text, marked))
+
+
+def _opened(text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
+    """Return what ``read`` makes of a program that closes a loop, with its inputs as they are.
+
+    `ParseError` if it closes none, or has letters of the system in what it gives an input and no comment with an
+    equation: F = u - k*x may be all forces.
+    """
+    found = carried_out(text, model, opened=True)
+    known = {sp.Symbol(p.name) for p in model.parameters}
+    if found is None or not found.closed:
+        raise ParseError("the program closes no loop", code="E701")
+    if found.text == found.bare and any(letters & known for letters in found.closed.values()):
+        raise ParseError("what the program gives its inputs is not read", code="E701")
+    answer = _read_steps(found, read)
+    names = ", ".join(found.closed)
+    return replace(answer, notes=(*answer.notes, f"What the program gives {names} was not judged."))
 
 
 def _read_steps(program: CarriedOut, read: Callable[[str], Answer]) -> Answer:

@@ -15,6 +15,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian.check.reading.carried_out.closed_loops import OpenInterpreter, inputs_named, names_in
 from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
@@ -46,7 +47,7 @@ from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.read.scope import Scope
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
 
 LONGEST_PROGRAM, DEEPEST = 20_000, 40
 """The most characters of a program, and how deep brackets may stand in it."""
@@ -89,13 +90,16 @@ class CarriedOut:
     motion: str
     """The equations of motion alone, with what names in them mean."""
     notes: tuple[str, ...] = ()
+    closed: Mapping[str, Set[sp.Basic]] = field(default_factory=dict)
+    """The inputs that were left open, with the letters in what the program gives them."""
 
 
-def carried_out(text: str, model: Model, marks: ValueMarks | None = None) -> CarriedOut | None:
+def carried_out(text: str, model: Model, marks: ValueMarks | None = None, *, opened: bool = False) -> CarriedOut | None:
     """Return what a program in Python, MATLAB or Julia states.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
-    carried out on symbols; with ``marks``, in the values that it assigns.
+    carried out on symbols; with ``marks``, in the values that it assigns. ``opened``: inputs that get values
+    of a state are left as they are.
     """
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
     if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
@@ -113,15 +117,9 @@ def carried_out(text: str, model: Model, marks: ValueMarks | None = None) -> Car
             bare = in_matlab(bare) if matlab and is_julia(bare) else bare
             tree = ast.parse(in_python(bare) if matlab else bare)
         known = partial(_is_constant, scope, model=model)
-        named = _named(tree, scope)
-        valued = [p for p in model.parameters if p.name not in named]
-        free = [u.name for u in model.inputs if u.name not in named]
-        driven = free[0] if len(free) == 1 else None
-        states = 2 * len(model.coordinates)
         said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
         given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
-        made = Interpreter if marks is None else partial(MarkingInterpreter, marks=marks)
-        run = made(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
+        run = _interpreter(tree, model, scope, matlab=matlab, known=known, said=given, marks=marks, opened=opened)
         behind = ((k, _COMMENTED.search(x)) for k, x in enumerate(text.split("\n"), 1))
         run.behind = {k: m.group() for k, m in behind if m is not None}
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
@@ -150,13 +148,27 @@ def carried_out(text: str, model: Model, marks: ValueMarks | None = None) -> Car
     lines = text.split("\n")
     comments = _comments(lines, twice, foreign)
     bare, motion_alone = (_laid_out([""] * len(lines), x) for x in (found, motion))
-    return CarriedOut(_laid_out(comments, found), bare, motion_alone, tuple(_notes(run, driven)))
+    closed = run.closed if isinstance(run, OpenInterpreter) else {}
+    return CarriedOut(_laid_out(comments, found), bare, motion_alone, tuple(_notes(run)), closed)
 
 
-def _notes(run: Interpreter, driven: str | None) -> Iterator[str]:
+def _interpreter(
+    tree: ast.Module, model: Model, scope: AnswerScope, *, marks: ValueMarks | None, opened: bool, **given: Any
+) -> Interpreter:
+    """What carries out a program, with the parameters and the input that it does not name."""
+    named = {y for x in names_in(tree) for y in scope.meanings(x)[0]}
+    free = [u.name for u in model.inputs if u.name not in named]
+    given |= {"valued": [p for p in model.parameters if p.name not in named], "states": 2 * len(model.coordinates)}
+    given |= {"driven": free[0] if len(free) == 1 else None}
+    if opened:
+        return OpenInterpreter(inputs=inputs_named(tree, scope, model), **given)
+    return Interpreter(**given) if marks is None else MarkingInterpreter(marks=marks, **given)
+
+
+def _notes(run: Interpreter) -> Iterator[str]:
     """What names of the program were read as, and what was not carried out."""
-    if run.drives is not None and driven is not None:
-        yield told(f"{run.drives}(t)", driven)
+    if run.drives is not None and run.driven is not None:
+        yield told(f"{run.drives}(t)", run.driven)
     yield from (told(name, of) for name, of in run.read_as.items())
     yield from (_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
 
@@ -226,17 +238,6 @@ def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
     """Whether a name is a parameter or an input."""
     found = scope.meanings(name)[0]
     return any(x.name in found for x in (*model.parameters, *model.inputs))
-
-
-def _named(tree: ast.Module, scope: AnswerScope) -> set[str]:
-    """The names of the system in a program."""
-    said: set[str] = set()
-    for x in ast.walk(tree):
-        if isinstance(x, ast.Constant) and isinstance(x.value, str):
-            said.update(NAME.findall(x.value))  # symbols("m g")
-        elif isinstance(x, (ast.Name, ast.Attribute, ast.arg)):
-            said.add(x.id if isinstance(x, ast.Name) else x.attr if isinstance(x, ast.Attribute) else x.arg)
-    return {y for x in said for y in scope.meanings(x)[0]}
 
 
 def _depth(text: str) -> int:
