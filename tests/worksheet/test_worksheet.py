@@ -51,7 +51,7 @@ def test_a_variants_own_solution_is_right_and_a_copied_one_wrong() -> None:
     check_variant("lecture-3b", 1)
 
 
-@pytest.mark.thinned(5)
+@pytest.mark.thinned(7)
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize(
