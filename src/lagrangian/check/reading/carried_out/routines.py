@@ -299,6 +299,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "sum": lambda: checked(sp.Add(*map(scalar, listed(given[0])))),
         "power": lambda: power(given[0], given[1]),
         "atan2": lambda: sp.atan2(scalar(given[0]), scalar(given[1])),
+        "deal": lambda: list(given),
         "len": lambda: sp.Integer(len(listed(given[0]))),
     }
     table |= {alias: table[same] for alias, same in _ALIASES.items()}

@@ -216,7 +216,7 @@ def _renamed(
     """What symbols in statements are that the system does not have, as subs(…) or a comment says."""
     for name, of in meant.items():
         used = any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", x) for _, x in found)
-        if used and not scope.meanings(name)[0] and scope.meanings(of.rstrip("'’′"))[0]:
+        if used and not scope.meanings(name)[0] and _is_of_system(scope, of.rstrip("'’′")):
             yield 1, f"{name} = {of}"
 
 

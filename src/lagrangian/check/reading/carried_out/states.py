@@ -95,9 +95,11 @@ class StateReader:
             raise AbandonedError
         several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
         rates = _rates(several, alone=len(self.model.coordinates) == 1)
-        states = [x for x in given.values() if isinstance(x, State)]
         if rates is None:
             return None
+        table = self._parameters(given)
+        rates = [cast("sp.Expr", x.xreplace(table)) for x in rates]
+        states = [x for x in given.values() if isinstance(x, State) and not table.keys() & set(x.entries.values())]
         rates = with_mass(self.run, list(given.values()), rates) if states else rates
         layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self.rated)
         found: Any = layouts.of_sums(given, rates)
@@ -109,7 +111,16 @@ class StateReader:
         )
         found = found or (self._of_state(states, rates) if states else named.motion(called, rates))
         found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
-        return None if found is None else StateFunction(_line(f), *found)
+        return None if found is None else StateFunction(_line(f), found[0], found[1] | table)
+
+    def _parameters(self, given: Mapping[str, Value]) -> dict[sp.Symbol, sp.Expr]:
+        """The parameters that the entries of a column are, where each has the name of one: M = p(1); m = p(2)."""
+        table: dict[sp.Symbol, sp.Expr] = {}
+        for x in given.values():
+            called = [self.run.aliases.get(y, "") for y in x.entries.values()] if isinstance(x, State) else []
+            if isinstance(x, State) and called and all(map(self.run.known, called)):
+                table |= {y: sp.Symbol(of) for y, of in zip(x.entries.values(), called, strict=True)}
+        return table
 
     def in_the_open(self, loose: Loose, value: Value) -> StateFunction | None:
         """What rates without a function say, whose state a comment may name: dz = [w; …] with z = [phi; w]."""

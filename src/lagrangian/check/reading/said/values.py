@@ -25,6 +25,7 @@ from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.plain.spans import spans
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
+from lagrangian.check.reading.said.rates_in_comments import rates_in_comments
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
@@ -110,7 +111,9 @@ def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool)
         for name, value, sure in (*_paired(items), *_rated(items, coordinates, words, latex=latex)):
             found[name][value] = found[name].get(value, False) or sure
     readings = list(_readings({names[x]: said for x, said in found.items() if said}))
-    if numbered := {} if latex else numbered_rates(text, unknown, words.names.model):
+    numbered = {} if latex else numbered_rates(text, unknown, words.names.model)
+    numbered |= {} if latex else rates_in_comments(text, unknown, words.names)
+    if numbered:
         others = {x: v for y in readings if y.sure for x, v in y.values.items()}
         readings.insert(0, SaidValues({**others, **numbered}, True))
     return readings
