@@ -15,7 +15,7 @@ from lagrangian.check.reading.answer import AnswerLine, Kind, Summands
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
-from lagrangian.check.reading.placeholders import is_force, is_placeholder
+from lagrangian.check.reading.placeholders import displacements, is_force, is_placeholder
 from lagrangian.check.reading.summands import negative, summands
 from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
@@ -157,6 +157,9 @@ def matrix_rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[
     if both[0].shape != both[1].shape:
         a, b = (f"{s[0]} × {s[1]}" for s in (both[0].shape, both[1].shape))
         reader.fail(f"the left side is {a}, the right side {b}", node, fix="give both sides the same number of rows")
+    if any(displacements(x) and bounded.expand(x) != 0 for x in both[0] - both[1]):
+        written = " ".join(reader.source.text.split())
+        reader.names.notes.setdefault(f"'{written}' was not judged: it is about virtual displacements.")
     return list(zip(both[0], both[1], strict=True))
 
 

@@ -16,6 +16,7 @@ from collections.abc import Iterable, Sequence
 from lagrangian.check.reading.braces import with_round_brackets
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.prose.words import function_of
 from lagrangian.read.letters import key
 
 _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
@@ -41,8 +42,11 @@ _TALL = re.compile(r"[⎡-⎦]")
 _COLUMNS = re.compile(r"(?<=\S)\s{2,}(?=\S)")
 _LETTERED = re.compile(r"(?<!\w)(?P<stem>[^\W\d]\w{0,30}?)_?(?P<dots>p{1,2}|(?:punkt){1,2})(?!\w)")
 _LISTED = re.compile(r"\[([^\[\]=\n]{3,2000})\]")
-_GAPS = re.compile(r"(?<=[\w)'²])\s+(?=[\w(]|-\S)")
-_TOLD = re.compile(r"[\w)'²]\s+(?:\d|-\S)")
+_GAPS = re.compile(r"(?<=[\w)'²])\s+(?=(?P<told>\d|-\S)|[\w(])")
+_CALL = re.compile(r"(?<![^\W\d_])(?P<word>[^\W\d_]{2,8})(?:[²³]|\^\d)?\Z")
+"""What may be a function at the end of a text, perhaps with its power: sin²"""
+_ADDED = re.compile(r"\S\s++[-+−–]\s")
+"""A sign between the terms of a sum."""
 _DELIMITERS = str.maketrans("├┤", "  ")
 _SUM = re.compile(r"(?<=[\w)\]'′″\s])\s*[-+−–/±]")
 _MAX = 400
@@ -107,12 +111,35 @@ def _rows_with_commas(text: str) -> str:
 
     def separated(match: re.Match[str]) -> str:
         rows = match[1].split(";")
-        found = [_GAPS.sub(lambda m: ",".ljust(len(m.group())), row.strip().rjust(len(row))) for row in rows]
-        counts = {row.count(",") for row in found}
-        told = any(_TOLD.search(row) for row in rows) and "," not in match[1]
-        return f"[{';'.join(found)}]" if told and len(counts) == 1 and counts != {0} else match.group()
+        if "," in match[1] or (len(rows) == 1 and _ADDED.search(match[1])):
+            return match.group()  # [m + M cos 2θ] L θ'' is a factor
+        found = [_gaps(row) for row in rows]
+        told = any(gap["told"] for gaps in found for gap in gaps)
+        if not told or len({len(gaps) for gaps in found}) > 1:
+            return match.group()
+        return f"[{';'.join(map(_with_commas, rows, found))}]"
 
     return _LISTED.sub(separated, text)
+
+
+def _gaps(row: str) -> list[re.Match[str]]:
+    """The gaps between the entries of a row: outside brackets, and not behind a function, whose argument follows."""
+    found: list[re.Match[str]] = []
+    depth, at = 0, 0
+    for gap in _GAPS.finditer(row.rstrip()):
+        depth += row.count("(", at, gap.start()) - row.count(")", at, gap.start())
+        at = gap.start()
+        word = _CALL.search(row, max(0, at - 12), at)
+        if depth == 0 and row[:at].strip() and (word is None or function_of(word["word"]) is None):
+            found.append(gap)
+    return found
+
+
+def _with_commas(row: str, gaps: Sequence[re.Match[str]]) -> str:
+    """A row with a comma at the beginning of each of its gaps."""
+    for gap in gaps:
+        row = f"{row[: gap.start()]},{row[gap.start() + 1 :]}"
+    return row
 
 
 def _primed(match: re.Match[str]) -> str:

@@ -12,8 +12,9 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
 from lagrangian.check.reading.canonical import NAMES, momenta_of, slope_at_momenta
+from lagrangian.check.reading.columns import crossed, is_transposed, shown_shape, square
 from lagrangian.check.reading.names import Names, Value
-from lagrangian.check.reading.nodes import Node, leaf, only_name
+from lagrangian.check.reading.nodes import Node, leaf, only_name, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
 from lagrangian.check.reading.prose.words import RECIPROCALS
 from lagrangian.model.names import time
@@ -196,9 +197,26 @@ class Meaning(ExpressionReader):
         found |= variable.atoms(AppliedUndef)
         return len(found - {u.symbol for u in self.names.model.inputs}) <= len(self.names.model.coordinates)
 
-    def _variation(self, node: Node) -> sp.Expr:
+    def _variation(self, node: Node) -> Value:
+        """A virtual displacement; of a point that the answer gives by its components, a column."""
         found = only_name(node.children[1])
-        return variation(str(found[0]) if found else "")
+        named = str(found[0]) if found else ""
+        point = self._column(named)
+        if point is None:
+            meant, _ = self.names.scope.meanings(named)
+            return variation(meant[0] if len(meant) == 1 else named)
+        moves = {c.symbol: variation(c.name) for c in self.names.model.coordinates}
+        self._spend(point, node)
+        return point.applyfunc(lambda x: sp.Add(*(self._differentiated(x, q, node) * v for q, v in moves.items())))
+
+    def _column(self, named: str) -> MatrixBase | None:
+        """The column that the answer, and not the system, calls so; None if it is none."""
+        base = key(named)
+        if base not in self.names.own and base in self.names.given_matrices:
+            self.names.later(base)
+        value = self.names.own.get(base, ("", None))[1]
+        own = isinstance(value, MatrixBase) and value.shape[1] == 1 and not self.names.scope.meanings(named)[0]
+        return value.applyfunc(self.names.model.expand) if own else None
 
     # -- matrices ----------------------------------------------------------------------------------------------------
 
@@ -234,13 +252,13 @@ class Meaning(ExpressionReader):
             if value == 0 or (total is not None and total == 0):
                 total = value if total is None or total == 0 else total
                 continue
-            if _is_transposed(value, total):
+            if is_transposed(value, total):
                 total, value = (
                     x if x.shape[1] == 1 else x.T for x in cast("tuple[Any, Any]", (total, value))
                 )  # lists of as many entries
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
             if total is not None and shapes[0] != shapes[1]:
-                a, b = (_shape(x) for x in shapes)
+                a, b = (shown_shape(x) for x in shapes)
                 self.fail(f"{a} and {b} cannot be added", term, fix="give both the same number of rows and columns")
             total = value if total is None else total + value
         return total
@@ -261,15 +279,20 @@ class Meaning(ExpressionReader):
                 value = 1 / value
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
             if both and total.shape == value.shape and value.shape[1] == 1:
+                if value.shape[0] in (2, 3) and self.source.text.startswith(("×", "\\times"), start_of(operator)):
+                    total = crossed(total, value)
+                    self._spend(total, child)
+                    continue
                 total = total.T  # a list in front of a column is a row
             if both and total.shape[1] != value.shape[0]:
-                a, b = _shape(total.shape), _shape(value.shape)
+                a, b = shown_shape(total.shape), shown_shape(value.shape)
                 self.fail(
                     f"{a} times {b} is not a product", child, fix="multiply a matrix of n columns by a column of n rows"
                 )
             if both and total.shape[0] * value.shape[1] * value.shape[0] > 20 * MAX_ENTRIES:
                 self.fail("the matrices are too large to multiply", child, code="E703")
             total = total * value
+            total = total[0] if isinstance(total, MatrixBase) and len(total) == 1 else total  # a dot product
             self._spend(total, child)
         return total
 
@@ -282,15 +305,10 @@ class Meaning(ExpressionReader):
 
     def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
         if isinstance(base, MatrixBase) and base.shape[1] == 1 and exponent == 2:
-            return self._square(base)  # v^2 of a velocity that is given by its components
+            return square(base)  # v^2 of a velocity that is given by its components
         if isinstance(base, MatrixBase) or isinstance(exponent, MatrixBase):
             self.fail("a matrix is raised to a power", node, fix="write the equations out row by row")
         return super()._raise(node, base, exponent)
-
-    @staticmethod
-    def _square(column: MatrixBase) -> sp.Expr:
-        """The sum of the squares of the components."""
-        return sp.Add(*[x**2 for x in column.flat()])
 
     def _call(self, node: Node) -> sp.Expr:
         if (below := RECIPROCALS.get(str(node.children[0]))) is not None:
@@ -300,15 +318,9 @@ class Meaning(ExpressionReader):
             if argument.data == "condition" or not isinstance(found := self.value(argument), MatrixBase):
                 continue
             if str(node.children[0]) in ("abs", "norm") and found.shape[1] == 1:
-                return sp.sqrt(self._square(found))
+                return sp.sqrt(square(found))
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
-
-
-def _is_transposed(one: Value, other: Value) -> bool:
-    """Whether one is a row and the other a column, of as many entries."""
-    shapes = [x.shape for x in (one, other) if isinstance(x, MatrixBase)]
-    return len(shapes) == 2 and 1 in shapes[0] and shapes[0] == shapes[1][::-1] != shapes[1]
 
 
 class ReadingBudget:
@@ -364,10 +376,6 @@ class ReadingBudget:
             stack.pop()
             if part not in known:
                 yield part
-
-
-def _shape(shape: Any) -> str:
-    return shape if isinstance(shape, str) else f"a matrix of {shape[0]} × {shape[1]}"
 
 
 def _slope(value: Value, by: sp.Expr) -> Value:

@@ -42,7 +42,7 @@ from lagrangian.check.reading.programs.marks import (
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
-from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words
+from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words, terms_alone
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
@@ -377,7 +377,7 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(name)
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
-    used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text)
+    used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]

@@ -14,7 +14,7 @@ from lagrangian.check.reading.parser import AnswerToken, Parser
 from lagrangian.check.reading.prose.splits import splits
 from lagrangian.model.names import MAX_LENGTH
 from lagrangian.quantities.source import Source
-from lagrangian.read.letters import normal
+from lagrangian.read.letters import key, normal
 
 
 class LatexSymbols(Parser):
@@ -147,10 +147,14 @@ class LatexSymbols(Parser):
         before = self.tokens[at].text[-MAX_LENGTH:] if at >= 0 else ""
         for length in (len(letters), 1):
             if length <= MAX_LENGTH and any(
-                self.known(f"{before[at:]}_{letters[:length]}") for at in range(len(before))
+                self._has(f"{before[at:]}_{letters[:length]}") for at in range(len(before))
             ):
                 return length
         return len(letters)
+
+    def _has(self, indexed: str) -> bool:
+        """Whether the system or the answer has a name with this index."""
+        return self.known(indexed) or key(indexed) in self.names.scope.taken
 
     def _raised_primes(self) -> int:
         r"""Count and consume the primes in ^\prime or ^{\prime\prime}."""

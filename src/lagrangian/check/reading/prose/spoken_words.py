@@ -1,5 +1,6 @@
 """Finds common words that letters of an answer spell, too, and that are no products: z as second coordinate;
-products of which an answer says that they are some: mga = m·g·a; and names of two equal letters: II phi''."""
+products of which an answer says that they are some: mga = m·g·a; names of two equal letters: II phi''; and names of
+forces that are a term: m x'' = Hx."""
 
 from __future__ import annotations
 
@@ -20,6 +21,12 @@ _DOUBLED = re.compile(
     re.MULTILINE,
 )
 """A letter twice where a factor stands, in front of a rate or a function: 1/2 II ph'^2."""
+_ALONE = re.compile(
+    r"(?:[-=+−–][ \t]*+|[(\[,][ \t]*+(?=[^()\[\]=\n]{1,60}[)\]]))(?P<name>[A-Z][A-Za-z]{1,2}\d?)"
+    r"(?=[ \t]*+(?:$|[-=+−–,;)\]]|\.(?:\s|$)))",
+    re.MULTILINE,
+)
+"""A short name with a capital letter that is a whole term, or an entry of a list: m x'' = Hx - m g, (Hx, Hy)."""
 _MOST = 500
 """The most pairs of words that are looked at."""
 
@@ -33,6 +40,11 @@ def spoken_words(text: str, words: Words) -> frozenset[str]:
 def doubled_letters(text: str) -> dict[str, None]:
     """Return the names of two equal letters, which programs write for letters that mean something else to them: II."""
     return {m["name"]: None for m in _DOUBLED.finditer(text) if function_of(m["name"]) is None}
+
+
+def terms_alone(text: str) -> dict[str, None]:
+    """Return the short names with a capital letter that are whole terms or entries of lists, and so no words."""
+    return {m["name"]: None for m in _ALONE.finditer(text) if function_of(m["name"]) is None}
 
 
 def is_spelled_out(text: str, at: int, name: str) -> bool:

@@ -1,0 +1,137 @@
+"""Ordinary sheets of students: products and brackets without signs, names of their own behind functions and indices,
+points by their components, and declarations in words.
+
+Oracle: by hand, a door on springy hinges with a lamp on a thread (a plank that swings with a hanging lamp), without
+friction:
+
+    (J + m a²) α̈ + m a l sin(α − β) β̈ − m a l cos(α − β) β̇² − m g a cos α + k α = τ
+    m l² β̈ + m a l sin(α − β) α̈ + m a l cos(α − β) α̇² + m g l sin β = 0
+
+with the lamp at x = −a cos α + l sin β, y = −a sin α − l cos β. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+from lagrangian import Derivation, System
+
+PLANK = "(J + m a^2) α'' + m a l sin(α - β) β'' - m a l cos(α - β) β'^2 - m g a cos α + k α = τ"
+LAMP = "m l^2 β'' + m a l sin(α - β) α'' + m a l cos(α - β) α'^2 + m g l sin β = 0"
+PLACE = "r = (-a cos α + l sin β, -a sin α - l cos β)"
+
+
+@cache
+def plank() -> Derivation:
+    """A plank on a spring with a lamp on a thread at its end."""
+    sys = System("plank with a lamp on a thread")
+    alpha, beta = sys.coordinate("alpha"), sys.coordinate("beta")
+    m, a, l, J, k = sys.parameters("m a l J k", m=2, a=0.8, l=0.5, J=1.5, k=90)
+    (t,) = alpha.args
+    sys.kinetic(J * alpha.diff(t) ** 2 / 2)
+    lamp = sys.point("P", (-a * sp.cos(alpha) + l * sp.sin(beta), -a * sp.sin(alpha) - l * sp.cos(beta)))
+    sys.particle(m, at=lamp)
+    sys.gravity()
+    sys.spring(k, deflection=alpha)
+    sys.generalized_force(alpha, sys.input("tau"))
+    return sys.derive()
+
+
+def right(text: str) -> bool:
+    """Whether an answer to the plank is right."""
+    return plank().check(text, hint=0).right
+
+
+def told(text: str) -> list[str]:
+    """What is told beside the lines of an answer to the plank, which is right."""
+    verdict = plank().check(text)
+    assert verdict.right, verdict.to_text()
+    return [str(x) for x in verdict.notes]
+
+
+def test_the_equations_are_right() -> None:
+    assert right(f"{PLANK}\n{LAMP}")
+    assert not right(f"{PLANK}\n{LAMP.replace('+ m g l', '- m g l')}")
+
+
+WORK = """\
+{place}
+δr = (a sin α δα + l cos β δβ, -a cos α δα + l sin β δβ)
+w = (a sin α α'' + a cos α α'^2 + l cos β β'' - l sin β β'^2, -a cos α α'' + a sin α α'^2 + l sin β β'' + l cos β β'^2)
+m w·δr = m [a^2 α'' + a l sin(α - β) β'' - a l cos(α - β) β'^2] δα + m [l^2 β'' + a l sin(α - β) α''\
+ + a l cos(α - β) α'^2] δβ
+"""
+
+
+def test_a_dot_product_of_rows_is_a_number() -> None:
+    work = WORK.format(place=PLACE)
+    assert right(f"{work}\n{PLANK}\n{LAMP}")
+    assert not right(f"{work}\n{PLANK}\n{LAMP.replace('+ m g l', '- m g l')}")
+    assert right(f"{PLACE}\nv = r'\nT = 1/2 m v·v + 1/2 J α'^2\n{PLANK}\n{LAMP}")
+    assert not right(f"{PLACE}\nv = r'\nT = m v·v + 1/2 J α'^2\n{PLANK}\n{LAMP}")
+
+
+def test_a_wrong_virtual_displacement_of_a_point_is_not_passed_over() -> None:
+    wrong = WORK.format(place=PLACE).split("\n")[1].replace("+ l cos β", "- l cos β")
+    notes = told(f"{PLACE}\n{wrong}\n{PLANK}\n{LAMP}")
+    assert any("virtual displacements" in x for x in notes)
+    notes = told(f"{PLACE}\n{WORK.format(place=PLACE).splitlines()[1]}\n{PLANK}\n{LAMP}")
+    assert not any("virtual displacements" in x for x in notes)
+
+
+def test_a_cross_product_of_rows_in_the_plane_is_its_component_out_of_it() -> None:
+    moment = "N = (0, -m g)\np = (-a cos α, -a sin α)\np × N = m g a cos α"
+    assert right(f"{moment}\n{PLANK}\n{LAMP}")
+    assert not right(f"{moment.replace('= m g a', '= -m g a')}\n{PLANK}\n{LAMP}")
+
+
+@pytest.mark.parametrize(
+    "inertia",
+    [
+        "[J + 3m a²/2 − m a² (1 − cos 2α)/2 − (m a²) ½ cos 2α]",
+        "[J + m a² sin² α + m a² cos² α]",
+        "[J + 2 m a² − (m a²) cos 0]",
+        "[J + m a² (sin 1)² + (m a²) cos² 1]",
+    ],
+)
+def test_a_square_bracket_around_a_sum_is_no_row_of_a_matrix(inertia: str) -> None:
+    rest = PLANK.split("α''", 1)[1]
+    assert right(f"{inertia} α'' {rest}\n\n{LAMP}")
+    assert not right(f"{inertia.replace('J', '2 J')} α'' {rest}\n\n{LAMP}")
+
+
+def test_a_matrix_with_functions_and_blanks_is_still_one() -> None:
+    mass = "[J+m*a^2 m*a*l*sin(α-β); m*a*l*sin(α-β) m*l^2]"
+    rest = "[-m*a*l*cos(α-β)*β'^2-m*g*a*cos(α)+k*α; m*a*l*cos(α-β)*α'^2+m*g*l*sin(β)]"
+    assert right(f"{mass}*[α''; β''] + {rest} = [τ; 0]")
+    assert not right(f"{mass}*[α''; β''] + {rest} = [-τ; 0]")
+
+
+NEWTON = """\
+x'' = a sin α α'' + a cos α α'^2 + l cos β β'' - l sin β β'^2
+y'' = -a cos α α'' + a sin α α'^2 + l sin β β'' + l cos β β'^2
+m x'' = Fx
+m y'' = Fy - m g
+- l cos β Fx - l sin β Fy = 0
+J α'' = -k α + τ + a cos α Fy - a sin α Fx
+"""
+
+
+@pytest.mark.parametrize(("first", "second"), [("Fx", "Fy"), ("Sa", "Sb"), ("FH", "FV"), ("Hx", "Hy")])
+def test_a_force_of_ones_own_stands_behind_the_argument_of_a_function(first: str, second: str) -> None:
+    rows = NEWTON.replace("Fx", first).replace("Fy", second)
+    assert right(rows)
+    assert not right(rows.replace("- m g", "+ m g"))
+
+
+def test_a_name_with_an_index_of_one_letter_stands_in_front_of_letters_in_latex() -> None:
+    head = r"With $D_s = J + ma^2$, $c_b = mal$, $R_2 = \tau - k\alpha$:"
+    one = r"$D_s\ddot\alpha + c_b\sin(\alpha-\beta)\ddot\beta - c_b\cos(\alpha-\beta)\dot\beta^2 - mga\cos\alpha = R_2$"
+    two = r"$ml^2\ddot\beta + c_b\sin(\alpha-\beta)\ddot\alpha + c_b\cos(\alpha-\beta)\dot\alpha^2 = -mgl\sin\beta$"
+    product = one.replace("D_s", "D_sl").replace("c_b", "c_bl").replace("mga", "c_bg").replace("R_2", "lR_2")
+    for form in (one, product):
+        assert right(f"{head}\n{form}\n{two}")
+        assert not right(f"{head}\n{form.replace('R_2', '2R_2')}\n{two}")
