@@ -41,6 +41,7 @@ from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.lines import filled, without_forms, without_periods
+from lagrangian.check.momenta_said import with_rates_of_momenta
 from lagrangian.check.names.amounts_said import judged_with_amounts
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
@@ -121,7 +122,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
 
 def _filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines with names written out, and what they state for coordinates of their own."""
-    written = as_said_of_others(truth, filled(truth, lines))
+    written = with_rates_of_momenta(truth, as_said_of_others(truth, filled(truth, lines)))
     return with_own_quantities(truth, written, chart(truth, written))
 
 

@@ -19,6 +19,7 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import Senses, columns, said_of_column, senses_of
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.line_mistakes import stated
+from lagrangian.check.explain.nearest_axes import nearest
 from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
@@ -202,7 +203,7 @@ class BodiesSaid:
                 continue
             if self.is_T_right or all(x.kind == "V" for x in wrong):  # a height, not a position that is differentiated
                 chosen.sort(key=lambda c: any(self.parts[k].T != 0 for k in c))
-            said = tuple(self.parts[k] for k in chosen[0])
+            said = nearest(self.truth, [tuple(self.parts[k] for k in c) for c in chosen])
             if count == 1:
                 firsts: dict[int, SaidWrongly] = {}  # of several on one line, in the order in which they stand there
                 for (k,) in chosen:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.meant import PART_OF
+from lagrangian.check.explain.misconceptions.sine_for_cosine import WHY as WHY_EXCHANGED
 from lagrangian.check.explain.say import WHY_PART
 from lagrangian.page.formula import Left, Text, text
 
@@ -88,8 +91,21 @@ def why_of(kind: str, right: sp.Expr, apart: Sequence[str | Left]) -> Text:
     sign = bool(apart) and str(apart[-1]) == SIGN
     if sign and kind in OF_WAYS:
         return WHY_SIGN
+    if kind in (*OF_TURNED, "along") and _are_exchanged(apart):
+        return WHY_EXCHANGED
     turned = any(isinstance(x, sp.Expr) and x.has(sp.sin, sp.cos) for x in apart)
     return WHY_SIGN_OF_RATE if sign and turned and kind in OF_TURNED else WHY[kind]
+
+
+def _are_exchanged(apart: Sequence[str | Left]) -> bool:
+    """Whether one term stands in place of another that differs in a sine and a cosine that are exchanged."""
+    terms = [x for x in apart if isinstance(x, sp.Expr)]
+    if len(terms) != 2 or not all(x.has(sp.sin, sp.cos) for x in terms):
+        return False
+    other, right = terms
+    angles = [x.args[0] for x in other.atoms(sp.sin, sp.cos)]
+    swaps = ({sp.sin(a): sp.cos(a), sp.cos(a): sp.sin(a)} for a in angles)
+    return any(bounded.expand(cast("sp.Expr", other.xreplace(swap))) in (right, -right) for swap in swaps)
 
 
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}

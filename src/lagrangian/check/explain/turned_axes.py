@@ -12,6 +12,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong
 from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.model import time
 from lagrangian.page.formula import Left
 
 MOST_AXES = 6
@@ -94,6 +95,7 @@ def _axes(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.M
         yield from (((f" of {f.name}",), sp.Matrix(f.rotation)) for f in frames)
     angles = [s.expand(f.total_angle) for f in frames] if plane else []
     angles += [a for x in (*s.position(b), *s.velocity(b)) for a in s.angles(x)]
+    angles += _driven(s, b) if plane else []
     angles = [a for a in dict.fromkeys(angles) if a.has(*s.q) or a.free_symbols]
     if plane:
         yield from (((" turned by ", a), cast("sp.Matrix", _turn(a)[:2, :2])) for a in angles)
@@ -103,6 +105,12 @@ def _axes(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.M
         cosine, sine = sp.cos(c), sp.sin(c)
         lean = sp.Matrix([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])
         yield (" turned by ", a, " and ", c), cast("sp.Matrix", _turn(a) * lean)
+
+
+def _driven(s: Ingredients, b: Any) -> list[sp.Expr]:
+    """The angles in a place that time alone gives: Ω t of a table."""
+    found = {cast("sp.Expr", f.args[0]) for x in s.position(b) for f in x.atoms(sp.sin, sp.cos)}
+    return sorted((a for a in found if a.has(time) and not a.has(*s.q)), key=sp.default_sort_key)
 
 
 def _turn(angle: sp.Expr) -> sp.Matrix:

@@ -1,0 +1,72 @@
+"""The rate of a name that is a momentum, ṗ_φ = …, is judged and explained as d/dt (∂L/∂φ̇).
+
+Oracle: by hand, a puck on a spring along a rod that a motor turns:
+
+    m r̈ − m r φ̇² + k (r − a) = 0,    (J + m r²) φ̈ + 2 m r ṙ φ̇ = M
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+ENERGIES = "T = 1/2 m (r'^2 + r^2 phi'^2) + 1/2 J phi'^2\nV = 1/2 k (r - a)^2"
+MOMENTA = "p_r = m r'\np_phi = (J + m r^2) phi'"
+FIRST = "m r'' - m r phi'^2 + k (r - a) = 0"
+
+
+@cache
+def rod() -> lg.Derivation:
+    """A puck on a spring along a rod that a motor turns."""
+    s = lg.System("puck on a rod")
+    r, phi = s.coordinates("r phi")
+    m, J, k, a = s.parameters("m J k a")
+    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="rod"), name="rod")
+    s.particle(m, at=s.point("P", (r * sp.cos(phi), r * sp.sin(phi))), name="puck")
+    s.spring(k, deflection=r, rest=a, name="spring")
+    s.torque(s.input("M"), on=phi, name="motor")
+    return s.derive()
+
+
+def sheet(rate: str, equation: str) -> str:
+    """A sheet by momenta, with the rate of one of them and the equation of φ."""
+    return "\n".join([ENERGIES, MOMENTA, "p_r' = m r''", rate, FIRST, equation])
+
+
+RIGHT = "(J + m r^2) phi'' + 2 m r r' phi'"
+WRONG = {
+    "(J + m r^2) phi''": "In d/dt(∂L/∂phi'), the term 2*m*r*phi'*r' is missing.",
+    "(J + m r^2) phi'' + m r r' phi'": "In d/dt(∂L/∂phi')",
+    "m r^2 phi'' + 2 m r r' phi'": "In d/dt(∂L/∂phi'), the term J*phi'' is missing.",
+}
+
+
+@pytest.mark.parametrize("left", ["p_phi'", "d/dt p_phi", "dp_phi/dt"])
+@pytest.mark.parametrize("written", WRONG)
+def test_a_wrong_rate_of_a_momentum_is_explained_in_its_line(left: str, written: str) -> None:
+    verdict = rod().check(sheet(f"{left} = {written}", f"{written} = M"))
+    wrong = [(f.line.number, f.follows) for f in verdict.findings if not f.status.right]
+    assert wrong == [(6, False), (8, True)]
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith(WRONG[written])
+
+
+def test_right_rates_of_momenta_are_right() -> None:
+    verdict = rod().check(sheet(f"p_phi' = {RIGHT}", f"{RIGHT} = M"))
+    assert verdict.right and all(f.status.right for f in verdict.findings)
+
+
+def test_a_balance_of_a_momentum_is_an_equation_of_motion() -> None:
+    verdict = rod().check("\n".join([ENERGIES, MOMENTA, "p_r' = m r phi'^2 - k (r - a)", "p_phi' = M"]))
+    assert verdict.right
+
+
+def test_the_rate_of_a_wrong_momentum_is_not_told_as_a_derivative() -> None:
+    momenta = MOMENTA.replace("(J + m r^2) phi'", "(J + 2 m r^2) phi'")
+    verdict = rod().check("\n".join([ENERGIES, momenta, "p_phi' = (J + 2 m r^2) phi'' + 4 m r r' phi'", FIRST]))
+    assert not verdict.right
+    assert not any("d/dt" in str(m.what) for m in verdict.mistakes)
