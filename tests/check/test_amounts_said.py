@@ -139,7 +139,7 @@ def test_an_equation_follows_from_a_wrong_amount_above_it() -> None:
     """What is wrong in it is what is wrong in the amount, and nothing else can be the cause."""
     verdict = swing().check("m l^2/3 = 0.0405\n0.0405 theta'' + 32 theta + 6.622 sin(theta) - 13.52 = M")
     first, second = verdict.findings
-    assert str(first.note) == "l^2*m/3 is 0.405, not 0.0405."
+    assert str(first.note) == "l^2*m/3 is 0.4050, not 0.0405."
     assert second.follows and not verdict.alternatives
     other = swing().check("m l^2/3 = 0.0405\n0.4050 theta'' + 36 theta + 6.622 sin(theta) - 13.52 = M")
     assert not other.findings[1].follows
