@@ -133,3 +133,19 @@ def test_an_amount_may_stand_before_what_moves(line: str) -> None:
     assert swing().check(f"m g l cos(theta) = 13.2435 cos(theta)\n{line}").right
     assert swing().check(f"m g l cos(theta) = 14.2435 cos(theta)\n{line}").status is Status.WRONG
     assert swing().check(f"m g l cos(theta) = 13.2435 sin(theta)\n{line}").status is Status.WRONG
+
+
+def test_an_equation_follows_from_a_wrong_amount_above_it() -> None:
+    """What is wrong in it is what is wrong in the amount, and nothing else can be the cause."""
+    verdict = swing().check("m l^2/3 = 0.0405\n0.0405 theta'' + 32 theta + 6.622 sin(theta) - 13.52 = M")
+    first, second = verdict.findings
+    assert str(first.note) == "l^2*m/3 is 0.4050, not 0.0405."
+    assert second.follows and not verdict.alternatives
+    other = swing().check("m l^2/3 = 0.0405\n0.4050 theta'' + 36 theta + 6.622 sin(theta) - 13.52 = M")
+    assert not other.findings[1].follows
+
+
+def test_an_amount_is_told_with_three_digits() -> None:
+    """0.0625, not 0.06 where 0.25 was written."""
+    verdict = swing().check(f"m l^2/30 = 0.45\n{ROW}")
+    assert [str(f.note) for f in verdict.findings if not f.status.right] == ["l^2*m/30 is 0.0405, not 0.45."]

@@ -32,6 +32,7 @@ from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_mu
 from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.said_again import as_said_of_others
+from lagrangian.check.explain.said_in_numbers import said_in_numbers
 from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
@@ -112,7 +113,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
             verdict = with_fitting_advice(truth, said.lines, with_sides(verdict))
-        verdict = in_own_names(truth, written, verdict)
+        verdict = said_in_numbers(truth, in_own_names(truth, written, verdict))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -12,6 +12,7 @@ from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.terms_alone import LEFT_OVER
 from lagrangian.check.judged import Judged
 from lagrangian.check.names.spelling import Spelling, not_there
+from lagrangian.check.reading import is_placeholder
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Verdict
 from lagrangian.page.formula import text
@@ -19,7 +20,10 @@ from lagrangian.page.formula import text
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict, with the mistakes that explain the answer, unless its hint level tells none."""
-    notes = (*verdict.notes, *(not_there(truth.model, name) for name in new_names(truth, spelling.lines)))
+    notes = (
+        *verdict.notes,
+        *(not_there(truth.model, x) for x in new_names(truth, spelling.lines) if not is_placeholder(x)),
+    )
     if verdict.hint == 0:
         return replace(verdict, notes=notes)
     named = mistakes(truth, spelling.lines, judged.findings)

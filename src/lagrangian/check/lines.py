@@ -110,12 +110,28 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
     energies = {ENERGIES["T"]: truth.T, ENERGIES["V"]: truth.V}
     out: list[AnsweredLine] = []
     for written in with_own_definitions(truth, lines):
-        line = as_prescribed(truth, written)
+        line = with_rates_of_energies(truth, as_prescribed(truth, written))
         kind, expr = line.kind, truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
         if _is_other_lagrangian(line):
             kind, expr = "L", cast("sp.Expr", expr.xreplace(energies))
         out.append(replace(line, kind=kind, expr=expr))
     return tuple(out)
+
+
+def with_rates_of_energies(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line with the rates of energies that the answer does not state, dV/dt = …, as those of the system's."""
+    rates = {sp.Derivative(ENERGIES[k], time): bounded.diff(x, time) for k, x in (("T", truth.T), ("V", truth.V))}
+    held = [x for x in rates if line.expr.has(x)]
+    if not held:
+        return line
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    alone = [x for x in held if line.sides is not None and x in line.sides]
+    own = len(alone) == len(held) == 1 and line.sides is not None
+    others = [x for x in line.sides or () if x not in alone]
+    same = own and rates[alone[0]].has(*accelerations) == any(x.has(*accelerations) for x in others)
+    sides = None if line.sides is None else (line.sides[0].xreplace(rates), line.sides[1].xreplace(rates))
+    kind = "identity" if line.kind == "equation" and same else line.kind
+    return replace(line, kind=kind, expr=cast("sp.Expr", line.expr.xreplace(rates)), sides=cast("Any", sides))
 
 
 def _is_other_lagrangian(line: AnsweredLine) -> bool:

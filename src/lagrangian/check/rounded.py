@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.rounded_terms import in_exact_terms
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
@@ -55,8 +56,9 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     put: list[AnsweredLine] = []
     for line in lines:
         expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)))
-        put.append(replace(line, expr=expr))
-        sizes |= few
+        read, more = in_exact_terms(truth, replace(line, expr=expr))
+        put.append(read)
+        sizes |= few | more
     told = sorted(sizes)
     if not told:
         return tuple(lines), ()

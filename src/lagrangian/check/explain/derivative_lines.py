@@ -171,7 +171,7 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
         return None
     above = given(truth, [x for x in lines if x.number <= line.number])
     T = above.T if above.T is not None else truth.T
-    pair = _replaced(rest, right)
+    pair = replaced(rest, right)
     if pair is None:
         return factor_held(title, bounded.diff(T, truth.model.coordinates[i].rate), more, truth.model.coordinates, i)
     sums = sorted(T.atoms(sp.Add), key=bounded.operations)
@@ -247,7 +247,7 @@ def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mist
     return [Mistake(name, said, WHY, 4, None, finding.coordinate, text(f"A term of {title} is not right."))]
 
 
-def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:
+def replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:
     """The term that was written (0: none) and the one that belongs there (0: none), where the derivative has the terms
     ``right``, and the line has ``rest`` too much."""
     if len(rest) == 1:

@@ -35,6 +35,9 @@ FEWEST_OF_FACTORS, FEWEST, FEWEST_BEFORE_ZEROS = 100, 10, 1000
 """The smallest size, in units of its last digit, of a factor that may be rounded, 0.866 of 2·9.81·0.866; of a number
 that may be; and of a whole number before zeros that may stand for other digits, 285500."""
 
+SIGNIFICANT = 3
+"""The fewest digits of what letters amount to that are told: 0.0625, not 0.06."""
+
 LONGEST = 80
 """The largest number of operations of such a line."""
 
@@ -72,6 +75,7 @@ def judged_with_amounts(
     stated = own | {p: float(x) for p, x in given.items() if x.is_number and x.is_real}
     kept: list[AnsweredLine] = []
     wrong: list[Finding] = []
+    off: list[float] = []
     left = MOST
     lines = [replace(x, expr=sp.S.Zero) if _holds_in_values(truth, x, own, stated) else x for x in lines]
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
@@ -82,19 +86,35 @@ def judged_with_amounts(
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
         if None in found:
             kept += [_as_said(line, [*said, *_links(truth, same, own)]) for line in same]
-        elif found:
-            wrong.append(Finding(said[0], Status.WRONG, found[-1]))
+        elif found and (untrue := found[-1]) is not None:
+            wrong.append(Finding(said[0], Status.WRONG, untrue[0]))
+            off.append(untrue[1])
             kept += [line for line in same if not any(line is x for x in said) and not _is_number(line)]
         else:
             kept += same
     verdict = judge(kept)
     if not wrong:
         return verdict
-    findings: Sequence[Finding] = verdict.findings
+    findings: Sequence[Finding] = [_following(f, wrong, off) for f in verdict.findings]
+    followed = any(f is not x for f, x in zip(findings, verdict.findings, strict=True))
     for finding in wrong:
         findings = inserted(findings, finding)
-    motion = verdict.motion or verdict.right
-    return replace(verdict, status=Status.WRONG, findings=tuple(findings), motion=motion)
+    motion, others = verdict.motion or verdict.right, () if followed else verdict.alternatives
+    return replace(verdict, status=Status.WRONG, findings=tuple(findings), alternatives=others, motion=motion)
+
+
+def _following(finding: Finding, wrong: Sequence[Finding], off: Sequence[float]) -> Finding:
+    """A finding, as one that follows where the line is wrong by just the amount by which a line above is."""
+    if finding.status is not Status.WRONG or len(finding.differences) != 1:
+        return finding
+    difference = finding.differences[0]
+    lacking = bounded.expand(difference.term - difference.written)
+    number, _ = lacking.as_independent(AppliedUndef, as_Add=False)
+    if isinstance(lacking, sp.Add) or not number.is_number or not number.is_real:
+        return finding
+    size = abs(float(number))
+    above = (x for f, x in zip(wrong, off, strict=True) if f.line.number < finding.line.number)
+    return replace(finding, follows=finding.follows or any(abs(size - abs(x)) <= ROUNDED * abs(x) for x in above))
 
 
 def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> bool:
@@ -156,8 +176,9 @@ def _is_number(line: AnsweredLine) -> bool:
 
 def _untrue(
     truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values
-) -> Text | None:
-    """What letters amount to, where the sides of a line say something else; None if these are right."""
+) -> tuple[Text, float] | None:
+    """What letters amount to, where the sides of a line say something else, and by how much these are wrong; None if
+    they are right."""
     numbers = list(_written(lines[0].text))
     stated = list(_stated(truth, lines, said, values))
     sizes = {abs(x.number) for x in stated}
@@ -170,7 +191,7 @@ def _untrue(
         if digits is not None:
             near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
-            return _told(x, digits)
+            return _told(x, digits), x.number - x.meant
         above = x.number
     return None
 
@@ -227,4 +248,6 @@ def _told(stated: _Stated, digits: _Written | None) -> Text:
     places = max(0, round(-np.log10(digits.unit)))
     given = f"{number:.{places}f}"
     more = next((k for k in range(places, places + 9) if f"{meant:.{k}f}" != given), places)
-    return text(what, f" is {meant:.{more}f}, not {given}.")
+    long = max(more, SIGNIFICANT - 1 - int(np.floor(np.log10(abs(meant) or 1.0))))
+    told = next(x for k in range(more, long + 1) if float(x := f"{meant:.{k}f}") == float(f"{meant:.{long}f}"))
+    return text(what, f" is {told}, not {given}.")

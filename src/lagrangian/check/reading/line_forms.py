@@ -16,8 +16,10 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import displacements, is_force, is_placeholder
+from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.summands import negative, summands
 from lagrangian.errors import ParseError, listed
+from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
@@ -114,6 +116,20 @@ def without_expressions(
 
 def _moves(line: AnswerLine) -> bool:
     return accelerates(sp.sympify(line.residual))
+
+
+def rated_energy(
+    token: Token, order: int, value: sp.Expr, sides: tuple[Tree, Tree], reader: Meaning
+) -> AnswerLine | None:
+    """The line of the rate of an energy of which the answer states the value above, and which an equation of motion
+    gives if only one side of it accelerates; None for anything else."""
+    kind = energy_of(undotted(token)[0], reader.names.model, lhs=True)
+    stated = reader.names.energy(kind) if kind in ("T", "V") and order == 1 else None
+    if not isinstance(stated, sp.Expr) or is_general(stated):
+        return None
+    rate = bounded.diff(stated, time)
+    judged: Kind = "identity" if accelerates(rate) == accelerates(value) else "equation"
+    return made_line(judged, rate, value, None, *sides, reader)
 
 
 def is_general(value: sp.Expr) -> bool:

@@ -24,6 +24,7 @@ from lagrangian.check.reading.line_forms import (
     is_rate_of,
     made_line,
     matrix_rows,
+    rated_energy,
     says_constant,
     solves,
     together,
@@ -49,8 +50,7 @@ from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
 from lagrangian.errors import ParseError
-from lagrangian.model import Model
-from lagrangian.model.names import time
+from lagrangian.model import Model, time
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
@@ -245,9 +245,7 @@ class Lines:
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
         value = reader.finite(value, side)
-        kind: Kind = subject.kind
-        name = subject.name
-        lhs: sp.Expr | None = None
+        kind, name, lhs = subject.kind, subject.name, cast("sp.Expr | None", None)
         if is_general(value) and kind == "Xi" and name is not None:
             return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
         if is_general(value):
@@ -268,6 +266,8 @@ class Lines:
                 left, right = (value, left) if subject.right else (left, value)  # m x'' = N keeps its signs
                 return made_line("equation", left, right, None, sides[0], side, reader)
             rate = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
+            if rated := rated_energy(subject.token, subject.order, value, (sides[0], side), reader):
+                return rated  # dT/dt = m x' x''
             self._define(subject, value)
             self._used_nowhere(subject, reader)
             if isinstance(rate, sp.Expr) and not is_vector(rate) and bounded.expand(rate - value) != 0:

@@ -1,0 +1,51 @@
+"""Balances of powers: dT/dt and dV/dt are judged as rates of the energies, and what follows from a wrong one."""
+
+from __future__ import annotations
+
+import pytest
+from test_rounded_terms import ladder
+
+HEAD = (
+    "T = 1/2 I psi'^2, I = m l^2/3 + M l^2/9 + (M/3 + mw) l^2 cos(psi)^2, dI/dpsi = -2 (M/3 + mw) l^2 sin(psi) cos(psi)"
+)
+RATE = "dT/dt = I psi' psi'' + 1/2 (dI/dpsi) psi'^3"
+TWICE = "dT/dt = I psi' psi'' + (dI/dpsi) psi'^3"
+SLOPE = "((m/2 + 2 M/3 + mw) g l cos(psi) - k l sin(psi) (l cos(psi) - x0))"
+FORCE = "F l sin(psi) - c l^2 sin(psi)^2 psi'"
+ROW = f"I psi'' + 1/2 (dI/dpsi) psi'^2 + {SLOPE} = {FORCE}"
+ROW_TWICE = f"I psi'' + (dI/dpsi) psi'^2 + {SLOPE} = {FORCE}"
+
+
+@pytest.mark.parametrize("letter", ["T", "E_kin"])
+def test_a_right_balance_of_powers_is_right(letter: str) -> None:
+    text = "\n".join([HEAD, RATE, f"dV/dt = {SLOPE} psi'", ROW]).replace("T", letter)
+    verdict = ladder().check(text)
+    assert verdict.right
+    assert "⟨" not in str(verdict)
+
+
+@pytest.mark.parametrize("letter", ["T", "E_kin"])
+def test_a_wrong_rate_of_the_kinetic_energy_is_the_cause(letter: str) -> None:
+    """The inertia depends on the position: its rate is counted with ½."""
+    text = "\n".join([HEAD, TWICE, f"dV/dt = {SLOPE} psi'", ROW_TWICE]).replace("T", letter)
+    verdict = ladder().check(text)
+    open_ones = [f.line.number for f in verdict.findings if not f.status.right and not f.follows]
+    assert open_ones == [2]
+    assert [f.line.number for f in verdict.findings if f.follows] == [4]
+    assert "the factor 2 too much" in str(verdict.mistake.what)
+    assert "∂" not in str(verdict.mistake.what) + str(verdict.mistake.why)
+    assert "⟨" not in str(verdict)
+
+
+def test_a_wrong_rate_of_the_potential_energy_is_the_cause() -> None:
+    wrong = SLOPE.replace("- k l", "+ k l")
+    verdict = ladder().check(f"{HEAD}\n{RATE}\ndV/dt = {wrong} psi'\n{ROW.replace(SLOPE, wrong)}")
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [3]
+    assert [f.line.number for f in verdict.findings if f.follows] == [4]
+
+
+def test_a_rate_of_an_energy_beside_forces_is_an_equation_of_motion() -> None:
+    """What the rate of T is by the forces is Newton's law, no derivative."""
+    verdict = ladder().check(f"{HEAD}\ndT/dt = ({FORCE}) psi' - {SLOPE} psi'\n{ROW}")
+    assert verdict.right
+    assert not ladder().check(f"{HEAD}\ndT/dt = ({FORCE}) psi' + {SLOPE} psi'\n{ROW_TWICE}").right
