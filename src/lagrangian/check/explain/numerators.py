@@ -47,19 +47,26 @@ class SolvedRow:
     """How much the written acceleration is too large, at every state."""
 
 
-def solved_row(truth: Reference, expr: sp.Expr) -> SolvedRow | None:
-    """A row that holds one acceleration, alone and linear, while the right one holds several; None for any other."""
+def solved_row(truth: Reference, expr: sp.Expr, *, single: bool = False) -> SolvedRow | None:
+    """A row that holds one acceleration, alone and linear, while the right one holds several; None for any other.
+
+    ``single``: or while the right one holds that one alone, times a sum.
+    """
     held = [i for i, c in enumerate(truth.model.coordinates) if expr.has(c.acceleration)]
     if len(held) != 1 or truth.n > MOST_COORDINATES or terms(expr) > LONGEST or foreign_names(truth, expr):
         return None
     i = held[0]
     acceleration = cast("sp.Expr", truth.model.coordinates[i].acceleration)
-    if sum(truth.rows[i].has(c.acceleration) for c in truth.model.coordinates) < 2:
+    several = sum(truth.rows[i].has(c.acceleration) for c in truth.model.coordinates) > 1
+    if not several and not single:
         return None
     slope = bounded.diff(expr, acceleration)
     if slope.has(acceleration) or slope == 0:
         return None
-    above, below = _fraction(-cast("sp.Expr", expr.xreplace({acceleration: sp.S.Zero})) / slope)
+    quotient = -cast("sp.Expr", expr.xreplace({acceleration: sp.S.Zero})) / slope
+    above, below = _fraction(quotient)
+    if not several and (not below.has(sp.Add) or len(sp.Add.make_args(quotient)) > 1):
+        return None  # no numerator was written, or the equation itself was divided
     written = CompiledExpressions([cast("sp.Expr", above / below)]).at(truth.states)[0]
     rest = written - truth.accelerations[acceleration]
     if not np.isfinite(rest).all() or np.abs(rest).max() > LARGEST:
@@ -95,7 +102,7 @@ def in_numerator(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], list[Own
 
 def own_in_numerator(pool: Pool, expr: sp.Expr) -> OwnTerm | None:
     """The term of the numerator of a solved row that is wrong."""
-    row = solved_row(pool.truth, expr)
+    row = solved_row(pool.truth, expr, single=True)
     return _own(pool, row) if row is not None and np.abs(row.rest).max() > 1e-9 else None
 
 
@@ -135,13 +142,19 @@ def _mass_matrix(truth: Reference) -> tuple[sp.Matrix, sp.Expr]:
 
 def said_of(truth: Reference, mistake: Mistake, expr: sp.Expr) -> Mistake:
     """A mistake of a solved row, with the row named in its words."""
-    row = solved_row(truth, expr)
+    row = solved_row(truth, expr, single=True)
     if row is None:
         return mistake
     first, *more = mistake.what.parts
     words = (first[:1].lower() + first[1:], *more) if isinstance(first, str) and first[:2] != "T*" else (first, *more)
     name = truth.model.coordinates[row.i].name
-    what = text("In what is solved for ", row.acceleration, " alone: ", *words)
+    several = solved_row(truth, expr) is not None
+    where = (
+        ("In what is solved for ", row.acceleration, " alone: ")
+        if several
+        else ("In the numerator of ", row.acceleration, ": ")
+    )
+    what = text(*where, *words)
     return replace(mistake, what=what, coordinate=name)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations
@@ -287,7 +288,9 @@ def in_place(
     for k, v in enumerate(scaled):
         for number in (-1, -2):
             if np.abs(rest - number * v).max() <= SMALL * size:
-                return instead_of(k, times=1 + number)
+                near = SMALL * np.abs(v).max()
+                own = next((t for t, w in written if number == -2 and np.abs(w + v).max() <= near), None)
+                return instead_of(k, times=1 + number) if own is None else _turned(instead_of(k, own))
     for k, p in _multiplied(pool, scaled, rest):
         return instead_of(k, times=p)
     for t, v in written:
@@ -297,6 +300,12 @@ def in_place(
             if best is None or found.cost < best.cost:
                 best = found
     return best
+
+
+def _turned(found: OwnTerm) -> OwnTerm:
+    """A term with the wrong sign, and the same with the right one, both as the answer writes it."""
+    assert found.instead is not None
+    return replace(found, instead=(cast("sp.Expr", -found.term), found.instead[1]))
 
 
 def _idle(pool: Pool, row: int | None, term: sp.Expr) -> Element | None:

@@ -12,6 +12,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.align import CONSTANT, Alignment
 from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.divided_otherwise import divided_otherwise
 from lagrangian.check.explain.right_terms import RightTerm, right_terms
 from lagrangian.check.explain.search import SMALL
 from lagrangian.check.reference import Reference
@@ -76,8 +77,10 @@ def _under(pool: Pool, a: Alignment) -> Iterator[Undivided]:
     blocks = times.reshape(len(times), -1, truth.states.motions)
     same = np.abs(blocks - blocks[:, :, :1]) <= CONSTANT * (1 + np.abs(blocks[:, :, :1]))
     steady = np.isfinite(times).all(axis=1) & same.all(axis=(1, 2))
-    if not steady.any() or (by := _divisor(pool, a, j)) is None:
+    if (by := _divisor(pool, a, j)) is None:
         return
+    if (several := divided_otherwise(pool, a, j, by)) is not None:
+        yield Undivided(i, several[0], by, several[1], multiplied=False, others=len(pool.sites.rows[i]))
     for k in np.flatnonzero(steady):
         if k_only := _share(pool, times[k], by):
             done, only = k_only

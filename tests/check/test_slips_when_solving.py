@@ -1,0 +1,92 @@
+"""Slips on the way from a right equation to its acceleration are told by what stands in the answer.
+
+Oracle: by hand. A bead m slides on a spoke that turns with φ and carries a rotor J; a spring k pulls it in, the spoke
+has the damper c and the torque τ:
+
+    (J + m s²) φ̈ + 2 m s ṡ φ̇ + c φ̇ + m g s cos φ = τ,     m s̈ − m s φ̇² + k s + m g sin φ = 0
+
+and a crank with the mass m at the length l, whose slotted bar M moves along x = l cos φ:
+
+    (m l² + M l² sin²φ) φ̈ + M l² sin φ cos φ φ̇² + c φ̇ = τ
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from sympy import cos
+
+from lagrangian import Derivation, System
+
+
+@cache
+def spoke() -> Derivation:
+    """A bead on a spoke that turns."""
+    sys = System("spoke")
+    phi, s = sys.coordinates("phi s")
+    J, m, k, c, g = sys.parameters("J m k c g")
+    tau = sys.inputs("tau")
+    turned = sys.frame(phi, name="spoke")
+    sys.rigid_body(0, J, at=sys.origin, frame=turned, name="rotor")
+    sys.particle(m, at=turned.point(s, 0), name="bead")
+    sys.spring(k, deflection=s)
+    sys.damper(c, deflection=phi, name="bearing")
+    sys.gravity((0, -1), g)
+    sys.torque(tau, on=phi, name="motor")
+    return sys.derive()
+
+
+@cache
+def yoke() -> Derivation:
+    """A crank that moves a slotted bar."""
+    sys = System("yoke")
+    phi = sys.coordinates("phi")
+    m, M, l, c = sys.parameters("m M l c")
+    tau = sys.inputs("tau")
+    sys.rigid_body(0, m * l**2, at=sys.origin, frame=sys.frame(phi, name="crank"), name="crank")
+    sys.particle(M, at=sys.point("B", (l * cos(phi), 0)), name="bar")
+    sys.damper(c, deflection=phi, name="bearing")
+    sys.torque(tau, on=phi, name="motor")
+    return sys.derive()
+
+
+SPOKE = """(J + m s^2) phi'' + 2 m s s' phi' + c phi' + m g s cos(phi) = tau
+m s'' - m s phi'^2 + k s + m g sin(phi) = 0
+phi'' = """
+
+
+@pytest.mark.parametrize(
+    ("solved", "told"),
+    [
+        (
+            "(tau - c phi')/(J + m s^2) - 2 s' phi'/s - g cos(phi)/s",
+            "divided by J + m*s^2, but the terms g*m*s*cos(phi) + 2*m*s*phi'*s' only by m*s^2.",
+        ),
+        (
+            "(tau - c phi' - 2 m s s' phi' - m g s cos(phi))/J",
+            None,
+        ),
+        (
+            "(tau - m g s cos(phi) - 2 m s s' phi')/(J + m s^2) - c phi'/J",
+            "divided by J + m*s^2, but the term c*phi' only by J.",
+        ),
+    ],
+)
+def test_terms_that_were_divided_by_a_part_of_the_inertia(solved: str, told: str | None) -> None:
+    verdict = spoke().check(SPOKE + solved)
+    assert not verdict.right
+    words = [str(m.what) for m in verdict.mistakes]
+    assert [w.endswith(told) for w in words] == [True] if told else not any("divided" in w for w in words), words
+
+
+YOKE = """I phi'' + M l^2 sin(phi) cos(phi) phi'^2 + c phi' = tau  with  I = l^2 (m + M sin(phi)^2)
+phi'' = (tau - c phi' {} M l^2 sin(phi) cos(phi) phi'^2)/I"""
+
+
+def test_a_wrong_sign_in_a_numerator_is_quoted_as_it_was_written() -> None:
+    assert yoke().check(YOKE.format("-")).right
+    verdict = yoke().check(YOKE.format("+"))
+    assert [str(m.what) for m in verdict.mistakes] == [
+        "In the numerator of phi'': the term M*l^2*sin(phi)*cos(phi)*phi'^2 has the wrong sign."
+    ]
