@@ -252,3 +252,47 @@ def test_a_wrong_result_beside_right_balances_is_judged_alone(lost: str) -> None
     verdict = lever().check("\n".join([*balances, result.replace(lost, "")]))
     assert [f.line.number for f in verdict.findings if not f.status.right] == [8]
     assert verdict.mistakes and not any(m.name.startswith("multiplier") for m in verdict.mistakes)
+
+
+@cache
+def planet() -> lg.Derivation:
+    """A planet P of radius r on a carrier C of length a + r that rolls on a fixed wheel of radius a."""
+    s = lg.System("planet on a carrier")
+    psi = s.coordinate("psi")
+    C, P, m, a, r, g, b = s.parameters("C P m a r g b")
+    s.rigid_body(mass=0, inertia=C, at=s.origin, frame=s.frame(psi, name="carrier"), name="carrier")
+    at = s.point("Q", ((a + r) * sp.sin(psi), (a + r) * sp.cos(psi)))
+    s.rigid_body(mass=m, inertia=P, at=at, frame=s.frame((a + r) * psi / r, name="planet"), name="planet")
+    s.gravity((0, -1), g)
+    s.damper(b, deflection=(a + r) * psi / r)
+    s.torque(s.input("tau"), on=psi)
+    return s.derive()
+
+
+PLANET = """s = a + r
+Planet (force N of the carrier and tooth force H, both along its path, counted with psi):
+m s psi'' = N + H + m g sin(psi)
+P (s/r) psi'' = -H r - b (s/r) psi'
+Carrier: C psi'' = tau - N s
+From the planet
+H = -(s/r^2) (P psi'' + b psi')
+N = m s psi'' - m g sin(psi) + (s/r^2) (P psi'' + b psi')
+In the carrier: (C + m s^2 + P s^2/r^2) psi'' + b s^2/r^2 psi' - m g s sin(psi) = tau"""
+
+
+def test_a_balance_that_a_force_was_solved_from_below_is_the_wrong_line() -> None:
+    assert planet().check(PLANET).right
+    verdict = planet().check(PLANET.replace("-H r", "-H a").replace("r^2", "(a r)"))
+    wrong = {f.line.number: f.follows for f in verdict.findings if not f.status.right}
+    assert wrong == {4: False, 7: True, 8: True, 9: True}, wrong
+    assert "line 4, on the right-hand side, -H*a should be -H*r" in " ".join(str(verdict.mistakes[0].what).split())
+
+
+def test_a_balance_that_only_says_what_a_force_is_is_not_called_right() -> None:
+    wrong = PLANET.replace("= N + H", "= N + 3 H").replace("-H r", "-H a").replace("r^2", "(a r)")
+    for term in ("+ (s/(a r))", "+ P s^2", "+ b s^2"):
+        wrong = wrong.replace(term, f"+ 3{term[1:]}")
+    verdict = planet().check(wrong)
+    assert not verdict.right
+    assert not [f for f in verdict.findings if f.status.right and f.line.number in (3, 4)]
+    assert all(f.line.number != 1 for f in verdict.findings)  # s is a length, and nothing that moves

@@ -17,9 +17,11 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
+from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.its_body import of_its_body
+from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
 from lagrangian.check.explain.wrong_balance import balances_agree
@@ -88,8 +90,13 @@ def _in_question(truth: Reference, lines: Sequence[AnsweredLine], first: Answere
 
 def _values(truth: Reference, line: AnsweredLine) -> list[tuple[sp.Expr, list[SaidWrongly]]]:
     """The values that a name may have been meant to have, and of what each is the value; the likeliest first, those
-    with the letters that are written."""
+    with the letters that are written. A constant l = R + r that has no mass, and of whose name nothing is known, is
+    meant as none of them."""
     alike: dict[sp.Expr, list[SaidWrongly]] = {}
+    letters = bounded.letters(truth.expand(line.expr))
+    constant = letters <= {p.symbol for p in truth.model.parameters} and kinds_of(str(line.name)) is None
+    if constant and not any(is_mass(truth, cast("sp.Symbol", x)) for x in letters):
+        return []
     for said in said_of(truth, line):
         if said.right is not None:
             alike.setdefault(said.right, []).append(said)

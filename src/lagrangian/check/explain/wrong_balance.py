@@ -95,6 +95,7 @@ def with_wrong_balance(
     own = balances.lines
     causes = [own] if k is not None else [(*own[:i], *own[i + 1 :], line) for i in every]
     below = [x for x in lines if x.kind == "equation" and not x.expr.has(*balances.forces)]
+    below = [x for x in below if bounded.expand(x.expr) != 0]  # l = r + s says what l is
     below += [x for x in false if x is not line]
     holds = np.any([hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
@@ -273,7 +274,20 @@ def with_forces_of_below(
     kept = tuple(f for f in verdict.findings if not (f.status.right and _holds_force(f.line, numbers, names)))
     asked = replace(verdict, findings=kept)  # a balance says no more than the force that was solved from it beside it
     found = with_wrong_balance(truth, filled(truth, own), asked, filled(truth, later), judge)
-    return verdict if found is asked else found
+    return _without_what_says_forces(verdict, names) if found is asked else found
+
+
+def _without_what_says_forces(verdict: Verdict, names: set[str]) -> Verdict:
+    """The verdict on a wrong answer without calling a balance right that only says what a force is that was solved
+    from it; with a note on what was not judged."""
+    said = [
+        f
+        for f in verdict.findings
+        if f.status.right and f.line.kind == "equation" and f.line.names & names and bounded.expand(f.line.expr) == 0
+    ]
+    notes = [text(f"'{f.line.text}' was not judged: it says what a force is, which was solved from it.") for f in said]
+    findings = tuple(f for f in verdict.findings if f not in said)
+    return replace(verdict, findings=findings, notes=(*verdict.notes, *notes))
 
 
 def _holds_force(line: AnsweredLine, numbers: Collection[int], names: set[str]) -> bool:

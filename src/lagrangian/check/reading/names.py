@@ -96,6 +96,11 @@ class Names:
 
     # -- before the meaning ----------------------------------------------------------------------------------------
 
+    @property
+    def unexplained(self) -> frozenset[str]:
+        """The names that no statement explains, as they are written."""
+        return frozenset(u.name for u in self.unknown.values())
+
     def gather(self, trees: Iterable[Tree]) -> None:
         """Record which names occur in the trees, and which of them are differentiated anywhere."""
         for tree in trees:

@@ -157,9 +157,16 @@ def _parsed(text: str, model: Model, place: Place | None) -> Answer:
     return likeliest
 
 
-def _with_said_values(reading: Choices, choices: list[Choices], text: str, model: Model, place: Place | None) -> Answer:
-    """The answer in one reading, with names that only its sentences explain; where they leave it open, with ``others``
-    that are possible."""
+def _with_said_values(
+    reading: Choices,
+    choices: list[Choices],
+    text: str,
+    model: Model,
+    place: Place | None,
+    asked: frozenset[str] | None = None,
+) -> Answer:
+    """The answer in one reading, with names, of which some may be ``asked`` alone, that only its sentences explain;
+    where they leave it open, with ``others`` that are possible."""
     answer = _answer(text, model, place, reading, choices)
     again = partial(with_marks, text, lambda x: _answer(text, model, place, replace(reading, values=x), []))
     answer = replace(answer, marked=again if "[" in text or any(x.name for x in answer.lines) else None)
@@ -167,7 +174,7 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
         return answer
     typed, lines = plainer(text), Lines(model)
     latex = answer.notation == "latex"
-    names = [u.name for u in answer.unknown]
+    names = [u.name for u in answer.unknown if asked is None or u.name in asked]
     said = said_values(typed, names, _words(lines, typed), latex=latex)
 
     def read(with_values: SaidValues) -> Answer:
@@ -272,7 +279,9 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         bool(lines.lacking),
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
-        lambda numbers: _with_said_values(reading, [], without_lines(given, numbers), model, place),
+        lambda numbers: _with_said_values(
+            reading, [], without_lines(given, numbers), model, place, asked=lines.names.unexplained
+        ),
         commented=bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
