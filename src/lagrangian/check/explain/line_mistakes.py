@@ -52,14 +52,7 @@ def of_line(
     """
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
-        rest = line.expr - dissipation(truth)
-        values = CompiledExpressions([-bounded.diff(rest, c.rate) for c in truth.model.coordinates]).at(truth.states)
-        seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-        found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
-        if seen and not (found and found[0].cost <= EXOTIC):
-            of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
-            found += of_dampers.pairs(values)
-        return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
+        return _of_dissipation(pool, line), []
     if line.kind in DERIVED and i is not None:
         found = against.unopposed(_of_derivative(pool, line, i)) if line.kind != "T-p" else []
         slip = None if found else slip_in(truth, line, lines)
@@ -103,6 +96,19 @@ def of_line(
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_dissipation(pool: Pool, line: AnsweredLine) -> list[Explanation]:
+    """The mistakes that lead to a dissipation function, the most likely first."""
+    truth = pool.truth
+    rest = line.expr - dissipation(truth)
+    values = CompiledExpressions([-bounded.diff(rest, c.rate) for c in truth.model.coordinates]).at(truth.states)
+    seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
+    found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+    if seen and not (found and found[0].cost <= EXOTIC):
+        of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
+        found += of_dampers.pairs(values)
+    return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)]
 
 
 def _moving_part(truth: Reference, rest: sp.Expr) -> Array | None:

@@ -10,11 +10,13 @@ from itertools import islice
 
 from lagrangian.check.reading.answer import MarkedRow
 from lagrangian.check.reading.choices import Choices
+from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.ends import missing_brackets
+from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.plain.spans import statements
 from lagrangian.check.reading.plain.tokens import with_points
@@ -43,6 +45,15 @@ _MEANING = re.compile(
     r"(?=[ \t]*(?:[,;.)]|$))"
 )
 """A name with a value in names, between commas."""
+
+
+def parsers_of(
+    rows: Sequence[AnswerRow], in_words: Sequence[AnswerRow], words: Words, lines: Lines
+) -> list[tuple[AnswerRow, Callable[[Source], Parser]]]:
+    """Rows with what reads them: as text or, if they are not among those ``in_words``, as LaTeX."""
+    in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
+    in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
+    return [(row, in_text if row in in_words else in_latex) for row in rows]
 
 
 def parsed(

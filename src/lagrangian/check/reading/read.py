@@ -17,7 +17,6 @@ from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.indexed import counted_names, without_indices
-from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.latex.variants import with_variants_apart
@@ -28,9 +27,7 @@ from lagrangian.check.reading.marked_names import begun
 from lagrangian.check.reading.marked_values import with_marks
 from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
-from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
-from lagrangian.check.reading.parser import Parser
-from lagrangian.check.reading.plain.formula import PlainParser
+from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
 from lagrangian.check.reading.programs.marks import (
@@ -251,9 +248,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
     _check_number(rows, source, written)
-    in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
-    in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
-    parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
+    parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
