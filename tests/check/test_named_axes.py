@@ -77,3 +77,26 @@ def test_a_component_along_the_axes_of_the_wheel_is_told_along_these() -> None:
     (mistake,) = wheel().check(sheet(along, across.replace(" + e nu", ""))).mistakes
     assert TURNED.format("y", WHEEL) in str(mistake.what)
     assert str(mistake.what).endswith(": the term e*nu is missing.")
+
+
+@cache
+def arm() -> lg.Derivation:
+    """A bob along an arm on a driven table; the arm is nothing but its kinetic energy."""
+    s = lg.System("bob along an arm")
+    r, psi = s.coordinates("r psi")
+    m, J, nu, k = s.parameters("m J nu k")
+    turned = nu * time + psi
+    s.particle(m, at=s.point("P", (r * sp.cos(turned), r * sp.sin(turned))), name="bob")
+    s.kinetic(J * (nu + psi.diff(time)) ** 2 / 2, name="arm")
+    s.spring(k, deflection=r)
+    return s.derive()
+
+
+def test_the_rate_of_an_angle_in_a_kinetic_energy_is_an_angular_velocity() -> None:
+    energies = "T = 1/2 J w^2 + 1/2 m (r'^2 + r^2 (nu + psi')^2)\nV = 1/2 k r^2"
+    verdict = arm().check(f"w = nu + psi'\n{energies}")
+    assert verdict.right and str(verdict.findings[0].note) == "the angular velocity of 'arm'"
+    (mistake,) = arm().check(f"w = psi'\n{energies}").mistakes
+    assert str(mistake.what) == (
+        "Line 1 is not right: the angular velocity of 'arm' is nu + psi', not psi': the term nu is missing."
+    )

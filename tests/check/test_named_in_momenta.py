@@ -70,3 +70,13 @@ def test_the_rate_of_a_wrong_momentum_is_not_told_as_a_derivative() -> None:
     verdict = rod().check("\n".join([ENERGIES, momenta, "p_phi' = (J + 2 m r^2) phi'' + 4 m r r' phi'", FIRST]))
     assert not verdict.right
     assert not any("d/dt" in str(m.what) for m in verdict.mistakes)
+
+
+def test_both_of_two_wrong_balances_are_told() -> None:
+    """Newton along the rod without the centripetal term, and half of the Coriolis term across it."""
+    lines = ["along: m r'' = -k (r - a)", "across: m (r phi'' + r' phi') = N", "rod: J phi'' = M - r N"]
+    verdict = rod().check("\n".join(lines))
+    assert [(f.line.number, f.status.right) for f in verdict.findings] == [(1, False), (2, False), (3, True)]
+    first, second = (str(m.what) for m in verdict.mistakes)
+    assert first == "In line 1, on the right-hand side, the term m*r*phi'^2 is missing."
+    assert second == "In line 2, m*phi'*r' should be 2*m*phi'*r'."

@@ -28,6 +28,8 @@ MOST_NAMES, LONGEST_VALUE, LONGEST_FORMULA = 20, 60, 400
 ALONE = " in one equation alone"
 """What is said of a mistake that one equation alone shows."""
 
+_OF_DEFINITION = re.compile(r"Line (\d{1,6}) is not right: the ")
+"""How words begin that speak of a definition."""
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
 _MARKS = ("'", "’", "′", "\u0307", "\u0308")
 """What makes a rate of the name that stands before it."""
@@ -61,7 +63,7 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
     that no formula changes its value.
     """
     wrong = [f.line for f in verdict.findings if not f.status.right]
-    told = _Told(own_names(truth, lines, wrong), _differences(lines), _unused(truth, lines))
+    told = _Told(own_names(truth, lines, wrong), _differences(lines), _unused(truth, lines), _in_definitions(lines))
     if not told.names and not told.differences and not told.unused:
         return verdict
     named = replace(
@@ -108,6 +110,15 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     rated = {name for line in lines for name in _rated_in(line)}
     every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
+
+
+def _in_definitions(lines: Sequence[AnsweredLine]) -> dict[int, frozenset[str]]:
+    """The keys of the names that the definitions in each line use, and do not define."""
+    found: dict[int, frozenset[str]] = {}
+    for line in lines:
+        if line.kind == "definition":
+            found[line.number] = found.get(line.number, frozenset()) | (names_in(line) - {key(line.name or "")})
+    return found
 
 
 def _unused(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
@@ -168,6 +179,8 @@ class _Told:
     names: tuple[OwnName, ...]
     differences: frozenset[tuple[str, str]]
     unused: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict[sp.Expr, sp.Expr])
+    defined: Mapping[int, frozenset[str]] = field(default_factory=dict[int, frozenset[str]])
+    """The keys of the names that the definitions of each line use."""
 
     def finding(self, finding: Finding) -> Finding:
         """A finding, but for its line."""
@@ -178,7 +191,10 @@ class _Told:
         return replace(finding, differences=differences, note=own.words(finding.note))
 
     def mistake(self, mistake: Mistake) -> Mistake:
-        """A mistake in words."""
+        """A mistake in words; one in a definition in the names that this has itself."""
+        if (of := _OF_DEFINITION.match(str(mistake.what))) is not None and (used := self.defined.get(int(of[1]))):
+            own = replace(self, names=tuple(x for x in self.names if x.given or x.key in used), defined={})
+            return own.mistake(mistake)
         return replace(mistake, what=self.words(mistake.what), why=self.words(mistake.why))
 
     def difference(self, d: TermDifference) -> TermDifference:

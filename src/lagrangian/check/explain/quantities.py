@@ -314,8 +314,19 @@ def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
         rates = [base for base, exponent in powers if exponent == 2 and base.has(*s.v)]
         for w in rates if len(rates) == 1 else ():
             factor = cast("sp.Expr", square / w**2)
-            words = (f"velocity in {e.title}",)
-            yield Sayable("component", e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
+            turns = _turns(s, w)
+            words = (f"angular velocity of {e.title.removeprefix('kinetic ')}" if turns else f"velocity in {e.title}",)
+            kind = "turning" if turns else "component"
+            yield Sayable(kind, e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
+
+
+def _turns(s: Ingredients, w: sp.Expr) -> bool:
+    """Whether a rate is one of angles alone: of coordinates in rad, or with a sine, a cosine or a frame."""
+    places = [f for b in s.bodies for x in s.position(b) for f in x.atoms(sp.sin, sp.cos)]
+    angles = [*places, *(f.total_angle for f in s.model.frames if f.floating is None and s.model.dimension == 2)]
+    own = [c for c in s.coordinates if w.has(c.rate)]
+    plain = all(bounded.diff(w, c.rate).is_number for c in own)
+    return plain and all(c.unit == "rad" or any(s.expand(x).has(c.symbol) for x in angles) for c in own)
 
 
 def _of_coordinates(s: Ingredients) -> Iterator[Sayable]:

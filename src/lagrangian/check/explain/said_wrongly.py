@@ -15,6 +15,7 @@ from lagrangian.check.explain.apart import beside, folded, moving_part, rescales
 from lagrangian.check.explain.dampers_said import damper_share
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_along, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.plain_speeds import plain_speed
 from lagrangian.check.explain.quantities import (
     LEVEL,
     SIGNED,
@@ -29,6 +30,7 @@ from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, tur
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, WHY_TERM, why_of
 from lagrangian.check.explain.search import without_constant
 from lagrangian.check.explain.sense_counted import senses, value_of
+from lagrangian.check.explain.which_said import of_owner_said
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
@@ -125,8 +127,14 @@ class SaidWrongly:
         if self.words.why is not None:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
-        whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
+        squared = of.kind == "mass" or (str(of.words[0]).startswith("square") and self._has_sum)
+        whole = squared and differ and all(letters_in(x) <= self.own_letters for x in differ)
         return WHY_TERM if whole else why_of(of.kind, of.right, self.words.apart)
+
+    @property
+    def _has_sum(self) -> bool:
+        """Whether there is a sum in what is written."""
+        return any(isinstance(x, sp.Expr) and x.has(sp.Add) for x in self.words.written)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:
@@ -269,11 +277,13 @@ def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> It
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
     every, right = _quantities(truth, said), right_quantities(truth, line, but=True, turned=turned)
+    right, own = of_owner_said(truth, line, right), {id(q) for q in of_owner_said(truth, line, every.all)}
     placed = all(q.kind in PLACED for q in right)  # R + s sin θ is the height s sin θ from another place, if it is that
-    s, elsewhere = every.of, bool(right_quantities(truth, line, turned=turned) if placed else right)
+    exact = of_owner_said(truth, line, right_quantities(truth, line, turned=turned)) if placed else right
+    s, elsewhere = every.of, bool(exact)
     for k in _plausible(truth, line, said, turned, parts=True):
         q = every.all[k]
-        if not _alike(s, q, said) or any(q is x for x in right):
+        if id(q) not in own or not _alike(s, q, said) or any(q is x for x in right):
             continue
         for written, sign in senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
@@ -288,6 +298,7 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
         return replace(
             told(share.of, [share.right], [share.written], (share.right,), (share.written,)), apart=share.ending
         )
+    q, written = plain_speed(q, written) if q.kind == "speed" else (q, written)
     of, right, own = _narrowed(q, q.right if sign > 0 else turned(q.right), written, sign)
     right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
     right = _from_its_place(s, right, own) if q.kind in ("position", "height") else right

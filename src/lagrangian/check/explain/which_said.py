@@ -39,6 +39,11 @@ _ABOUT = re.compile(
     r"|cent(?:re|er)[ ]of[ ]rotation)|(?P<centre>cent(?:re|er)|schwerpunkt|massenmittelpunkt|com\b))",
     re.IGNORECASE,
 )
+_BETWEEN = re.compile(
+    r"\b(?:damp|dashpot|brak|spring|relativ|between|against|rope|slip|deflect|elongat|stretch|dämpf|feder|gegen|zwischen|seil)",
+    re.IGNORECASE,
+)
+"""What begins words of what acts between bodies."""
 _FIXED = re.compile(r"(?P<axis>[xyz]) (?:component|coordinate) of the \w|(?P<place>[xyz]) coordinate of ")
 
 
@@ -47,9 +52,8 @@ def as_said(
 ) -> list[Sayable]:
     """Those of the quantities that a definition has right that are what it says: of the body and along the axis that
     its name or the words before it name. ``letters``: which axes x, y and z are."""
-    owner = _owner_said(truth, line)
     axes = _axes_said(truth, line, letters)
-    kept = [q for q in found if owner is None or q.kind not in PLACED or owner is q.owner or owner.title in q.also]
+    kept = of_owner_said(truth, line, found)
     kept = [q for q in kept if axes is None or (axis := fixed_axis(q)) is None or axis in axes]
     return [q for q in kept if q.kind not in INERTIAS or _is_about(truth, line, q)]
 
@@ -65,7 +69,19 @@ def _is_about(truth: Reference, line: AnsweredLine, q: Sayable) -> bool:
     return q.kind != "inertia" or not moving or not (said is not None or is_about_point(name, body, truth.model))
 
 
-def _owner_said(truth: Reference, line: AnsweredLine) -> Any:
+def of_owner_said(truth: Reference, line: AnsweredLine, found: Sequence[Sayable]) -> list[Sayable]:
+    """Those of some quantities that are of the body that a definition says; all if it says none.
+
+    The rate of a damper is none of a body's, unless the words speak of what is between bodies.
+    """
+    owner = owner_said(truth, line)
+    if owner is None:
+        return list(found)
+    kinds = PLACED if _BETWEEN.search(f"{line.words} {line.name}") else PLACED | {"rate"}
+    return [q for q in found if q.kind not in kinds or owner is q.owner or owner.title in q.also]
+
+
+def owner_said(truth: Reference, line: AnsweredLine) -> Any:
     """The body that a name or the words before it name, by its own name or by the letter of its mass or point."""
     name = line.name or ""
     if (owner := owner_of(name, truth.model)) is not None:

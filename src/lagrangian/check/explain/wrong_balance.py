@@ -45,6 +45,8 @@ NAME = "wrong_balance"
 """The name of the mistake."""
 MOST_TOLD = 3
 """The most lines of which one is said to be wrong."""
+MOST_TERMS = 2
+"""The most terms of an equation above that are told."""
 MOMENT = 0.4
 """By how much likelier an arm or a sign is wrong in a moment than in a sum of forces."""
 WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
@@ -111,7 +113,17 @@ def with_wrong_balance(
     if solved.term is None and solved.known is not None and solved.known.said is not None:
         title = None if solved.known.element is None else solved.known.element.title
         mistake = replace(mistake, what=solved.known.said, element=title)
-    return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
+    told = (*_above(findings, line), mistake)
+    return replace(verdict, findings=findings, mistakes=told, alternatives=(), notes=notes, sure=True)
+
+
+def _above(findings: Sequence[Finding], line: AnsweredLine) -> list[Mistake]:
+    """The mistakes in equations above a wrong balance that differ from right ones in few terms: nothing in it is their
+    cause."""
+    wrong = [f for f in findings if f.status is Status.WRONG and not f.follows and not f.clash]
+    own = [f for f in wrong if f.line.kind == "equation" and f.line.number < line.number]
+    few = [(f, d) for f in own if len(f.differences) <= MOST_TERMS for d in f.differences]
+    return [replace(term_mistake(f, d), why=WHY) for f, d in few]
 
 
 def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
