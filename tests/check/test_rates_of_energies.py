@@ -49,3 +49,27 @@ def test_a_rate_of_an_energy_beside_forces_is_an_equation_of_motion() -> None:
     verdict = ladder().check(f"{HEAD}\ndT/dt = ({FORCE}) psi' - {SLOPE} psi'\n{ROW}")
     assert verdict.right
     assert not ladder().check(f"{HEAD}\ndT/dt = ({FORCE}) psi' + {SLOPE} psi'\n{ROW_TWICE}").right
+
+
+INERTIA = "I(psi) = m l^2/3 + M l^2/9 + (M/3 + mw) l^2 cos(psi)^2"
+PRIMED = [
+    ("T = 1/2 I(psi) psi'^2", True),
+    ("dT/dpsi' = I psi'", True),
+    ("dT/dpsi = 1/2 I' psi'^2", True),
+    ("dT/dpsi = I' psi'^2", False),
+    ("d/dt dT/dpsi' = I psi'' + I' psi'", True),
+    ("d/dt dT/dpsi' = I psi'' + I'(psi) psi'^2", True),
+    ("d/dt dT/dpsi' = I psi'' + I' psi'^2", True),
+    ("d/dt dT/dpsi' = I psi'' + 1/2 I' psi'^2", False),
+    ("dT/dt = I psi' psi'' + 1/2 I' psi'^2", True),
+]
+
+
+@pytest.mark.parametrize(("line", "right"), PRIMED)
+def test_a_prime_of_a_function_of_a_coordinate_is_its_slope_before_a_square(line: str, right: bool) -> None:
+    """And its rate elsewhere."""
+    verdict = ladder().check(
+        f"T = 1/2 I(psi) psi'^2, {INERTIA}\n{line}\n{ROW.replace('(dI/dpsi)', 'DI')}\n".replace("DI", "I'(psi)")
+    )
+    found = [f.status.right for f in verdict.findings if f.line.number == 2]
+    assert found and all(found) == right, str(verdict)

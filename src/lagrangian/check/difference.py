@@ -126,9 +126,23 @@ def _in_own_terms(
     for listed in groupings(truth, right, index):
         found = pairs(truth, expr, listed, factor)
         if found is None or len(found) < 2:
-            return found
+            return [_of_whole_term(expr, x) for x in found] if found else found
         best = found if best is None or len(found) < len(best) else best
     return best
+
+
+def _of_whole_term(expr: sp.Expr, pair: Pair) -> Pair:
+    """A piece of a term that is too much, ⅛ m l² φ̇² of ½ m (ż² + ¼ l² φ̇²), told of the one written term that is like
+    it, if that is more: ⅙ m l² φ̇² should be (1/24) m l² φ̇²."""
+    whole = sp.Add.make_args(expr)
+    if pair.right != 0 or pair.written in whole:
+        return pair
+    alike = [(t, number) for t in whole if (number := bounded.cancel(pair.written / t)).is_Rational]
+    if len(alike) != 1 or not 0 < alike[0][1] < 1:
+        return pair
+    term, number = alike[0]
+    right: sp.Expr = (1 - number) * term
+    return Pair(term, right, bounded.cancel(right * pair.unscaled / pair.written))
 
 
 def _as_written(truth: Reference, told: Sequence[Pair], index: int | None) -> Iterator[TermDifference]:

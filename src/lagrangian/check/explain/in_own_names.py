@@ -13,6 +13,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.coordinates.renamed import each_formula
 from lagrangian.check.explain.given_said import given_motions
+from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.terms_alone import term_mistake
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
@@ -106,7 +107,7 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     of_system = {d.name for d in truth.model.definitions}
     named = [OwnName(symbols[x], *values, given=x in of_system) for x, values in found.items() if len(values) == 1]
     named = [x for x in named if x.value.args and 0 < bounded.operations(x.value) <= LONGEST_VALUE]
-    named = [x for x in named if not _has_unknown(x.value, symbols.values())]
+    named = [x for x in named if not _has_unknown(x.value, symbols.values()) and not _is_kinetic(x)]
     rated = {name for line in lines for name in _rated_in(line)}
     every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
@@ -147,6 +148,12 @@ def _rated_in(line: AnsweredLine) -> Iterator[str]:
 
 def _moves(expr: sp.Expr) -> bool:
     return bool(expr.has(time) or expr.atoms(AppliedUndef))
+
+
+def _is_kinetic(name: OwnName) -> bool:
+    """Whether a name stands for the kinetic energy of a part, T₁, in which no other is measured: ¼ T₁."""
+    rates = name.value.atoms(sp.Derivative)
+    return kinds_of(name.key) == ("kinetic",) and any(bounded.diff(name.value, x).has(*rates) for x in rates)
 
 
 def _has_unknown(expr: sp.Expr, symbols: Any) -> bool:

@@ -52,7 +52,7 @@ def of_line(
     """
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
-        return _of_dissipation(pool, line), []
+        return _of_dissipation(pool, line, lines), []
     if line.kind in DERIVED and i is not None:
         found = against.unopposed(_of_derivative(pool, line, i)) if line.kind != "T-p" else []
         slip = None if found else slip_in(truth, line, lines)
@@ -98,17 +98,34 @@ def of_line(
     return [e for e in found if e.cost <= UNNATURAL], []
 
 
-def _of_dissipation(pool: Pool, line: AnsweredLine) -> list[Explanation]:
-    """The mistakes that lead to a dissipation function, the most likely first."""
+def _of_dissipation(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> list[Explanation]:
+    """The explanations of a wrong D; with the spring beside a damper only if a V that is stated is wrong so, too."""
     truth = pool.truth
     rest = line.expr - dissipation(truth)
     values = CompiledExpressions([-bounded.diff(rest, c.rate) for c in truth.model.coordinates]).at(truth.states)
     seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-    found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+    stated_V = [x for x in lines if x.kind == "V"]
+    alone = pool.Xi if not stated_V or not seen else _as_in_potential(pool, stated_V[0])
+    found = singles(pool, [alone[:, j] for j in range(truth.n)], values) if seen else []
     if seen and not (found and found[0].cost <= EXOTIC):
-        of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
+        whole = alone is pool.Xi
+        of_dampers: Vectors = (
+            pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi)) if whole else Vectors(pool, alone)
+        )
         found += of_dampers.pairs(values)
     return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)]
+
+
+def _as_in_potential(pool: Pool, line: AnsweredLine) -> Array:
+    """What every mistake adds to the forces, 0 for one that would change V in another way than the line that states it
+    is wrong."""
+    changed = _changes(pool, "V", None)
+    off = without_constant(CompiledExpressions([line.expr - pool.truth.V]).at(pool.truth.states)[0])
+    if not np.isfinite(off).all():
+        return pool.Xi
+    free = np.abs(changed).max(axis=1) <= 1e-9
+    so = np.abs(changed - off).max(axis=1) <= 1e-9 * (1 + np.abs(off).max())
+    return np.where((free | so)[:, None, None], pool.Xi, 0.0)
 
 
 def _moving_part(truth: Reference, rest: sp.Expr) -> Array | None:

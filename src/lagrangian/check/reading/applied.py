@@ -67,6 +67,33 @@ def _end(text: str, start: int, stops: str) -> int:
     return min(len(text), start + 2 * LONGEST)
 
 
+_SQUARE = r"[ \t]*[*·]?[ \t]*(?:{of})(?:['’′]|\u0307|dot|_dot)[ \t]*(?:²|\^\{{?2|\*\*2)"
+"""The square of the rate of a letter behind something."""
+_OF_ENERGY = re.compile(r"d[ \t]?[TVELKU]\w{0,9}[ \t]?/[ \t]?dt|power", re.IGNORECASE)
+"""A line with the rate of an energy, in which a rate may stand before such a square: ½ İ θ'²."""
+
+
+def with_slopes_by_arguments(
+    text: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], told: dict[str, None]
+) -> TracedText:
+    """Return a plain text in which I' is I'(θ) before θ'², where the answer states I(θ): a rate of I stands before θ'.
+
+    ½ I' θ'² is ∂T/∂θ, and d/dt (I θ') = I θ'' + I' θ'.
+    """
+    edits: list[Edit] = []
+    for match in islice(_STATED.finditer(text.text), 4 * MOST):
+        name, of = match["name"], match["of"]
+        if not moves(of) or taken(name) or name in ENERGY_NAMES or function_of(name) is not None:
+            continue
+        primed = re.compile(rf"(?<![\w\\]){re.escape(name)}['’′](?={_SQUARE.format(of=re.escape(of))})")
+        for line in re.finditer(r"[^\n]+", text.text):
+            if _OF_ENERGY.search(line.group()) is None:
+                edits += [(m.end(), m.end(), f"({of})") for m in primed.finditer(text.text, *line.span())]
+    for at, _, argument in edits[:1]:
+        told.setdefault(f"{text.text[:at].split()[-1]} was read as a derivative by {argument[1:-1]}.")
+    return text.edited(edits[:MOST_CALLS])
+
+
 _GOES_ON = re.compile(
     r"(?<![\w\\])(?P<name>[TVLUKEPD]\*?|(?:\\?Xi|Ξ|Q)[ ]?_?[ ]?(?:\{[^{}\n]{1,20}\}|\\?\w{1,20}))"
     r"(?P<is>[ \t]{0,9}&?[ \t]{0,9}=[ \t]{0,9})(?:\.{3,6}|…|\\[lc]?dots)(?=[ \t]{0,9}[-+−–])"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lagrangian.check.reading.applied import with_functions_applied, with_values_above
+from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import LATEX
@@ -106,7 +106,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     referred = without_unit_checks(without_legend(without_references(indexed)), taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
-    tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
+    if not latex:
+        applied = with_functions_applied(tagless, taken, names.notes)
+        tagless = with_slopes_by_arguments(applied, lambda name: key(name) in moving, taken, names.notes)
     tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
