@@ -23,6 +23,7 @@ from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.advice import with_fitting_advice
+from lagrangian.check.explain.as_it_was_written import with_terms_as_written
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.derivatives_said import with_terms_of_equations
@@ -35,6 +36,7 @@ from lagrangian.check.explain.said_again import as_said_of_others
 from lagrangian.check.explain.said_in_numbers import said_in_numbers
 from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
+from lagrangian.check.explain.twice_said import with_twice_said
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
 from lagrangian.check.explained import explained
@@ -112,7 +114,8 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if not verdict.right and hint:
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
-            verdict = with_fitting_advice(truth, said.lines, with_sides(verdict))
+            verdict = with_fitting_advice(truth, said.lines, with_terms_as_written(truth, with_sides(verdict)))
+            verdict = with_twice_said(said.lines, verdict)
         verdict = said_in_numbers(truth, in_own_names(truth, written, verdict))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:

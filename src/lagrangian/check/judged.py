@@ -148,7 +148,8 @@ def of_equations(truth: Reference, comparison: RowComparison) -> Status:
     kinds = {r.kind for r in rows}
     if kinds == {Kind.SAME} and [r.index for r in rows] == list(range(truth.n)):
         return Status.RIGHT
-    if kinds <= {Kind.SAME, Kind.SCALED, Kind.COMBINED}:
+    each = {r.index for r in rows if r.kind is Kind.SAME} >= set(range(truth.n))
+    if each or kinds <= {Kind.SAME, Kind.SCALED, Kind.COMBINED}:
         return Status.EQUIVALENT
     return Status.SAME_MOTION
 

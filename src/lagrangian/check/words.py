@@ -183,7 +183,7 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         elif mistake.brief is not None:
             yield text(*begins, *mistake.brief.parts)
         yield text("To put it right: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
-        yield text(*_where(mistake, verdict))
+        yield from (text(x) for x in _where(mistake, verdict))
     if verdict.mistakes:
         first = verdict.first_wrong
         row = first is not None and first.line.kind in ("equation", "definition")
@@ -230,6 +230,8 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
         yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
 
 
+FORCES_TAKEN = " unknown force"
+"""What a note says of unknown forces in balances."""
 BODIES = ("particle", "rigid body")
 """Kinds of elements that are called by a name that is a word: the wheel."""
 PLACES = {
@@ -254,7 +256,15 @@ def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
     concerns = f"; it concerns {listed([*map(_called, elements)])}" if elements else ""
+    if mistake.step == 5 and _is_by_newton(verdict):
+        return (f"{concerns.removeprefix('; it').replace(' concerns', 'It concerns', 1)}.",) if concerns else ()
     return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
+
+
+def _is_by_newton(verdict: Verdict) -> bool:
+    """Whether an answer has balances with forces of its own, and no energy: they belong to no step."""
+    kinds = {f.line.kind for f in verdict.findings}
+    return any(FORCES_TAKEN in str(note) for note in verdict.notes) and kinds.isdisjoint(("T", "V", "L", "Xi", "D"))
 
 
 def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:

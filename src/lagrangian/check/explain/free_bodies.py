@@ -43,6 +43,11 @@ class Balance:
     inertia: Array
     slopes: Array
     loads: Mapping[Element, Array]
+    formulas: tuple[Mapping[Element, sp.Expr], ...] = ()
+
+    def formula(self, element: Element) -> sp.Expr:
+        """What a force adds to the balance."""
+        return bounded.expand(sp.Add(*(x.get(element, sp.S.Zero) for x in self.formulas)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +270,8 @@ class _Balancing:
                 force = loads[[*group, len(terms)]].sum(axis=0)
                 acting = {e: force[k] for k, e in enumerate(elements) if np.abs(force[k]).max() > NEAR}
                 if np.abs(whole).max() > NEAR:
-                    yield Balance(any(terms[i].moment for i in group), inertia[group].sum(axis=0), whole, acting)
+                    moment, formulas = any(terms[i].moment for i in group), tuple(terms[i].loads for i in group)
+                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, (*formulas, passed))
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,6 +31,8 @@ MOST_LETTERS = 12
 MOST_LAWS = 6
 """The most springs and dampers of which a name may be the force."""
 WHY = text("A spring's force is its stiffness times its own deflection, a damper's its constant times the rate of it.")
+LONGEST_MOMENT = 12
+"""The most operations of a moment that is written out."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
 NUMBERS = tuple(sign * sp.Rational(p, q) for p in range(1, 9) for q in range(1, 9) for sign in (1, -1))
@@ -91,15 +93,23 @@ def _part(
             return KnownPart(False, moment)
         part = _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
         return replace(part, term=_term(truth, line, match, times)) if len(listed) == 1 else part
+    alone = _factor(factors, match.scale) in (1, -1)
     if missing:
-        return _said(line, match, missing, _missing(missing))
+        return _said(line, match, missing, _missing(match, missing, alone=alone))
     if match.omitted and own:
-        return replace(_said(line, match, match.omitted, _missing(match.omitted)), tentative=True)
+        words = _missing(match, match.omitted, alone=alone)
+        return replace(_said(line, match, match.omitted, words), tentative=True)
     return KnownPart(not match.omitted, moment, acting=frozenset(match.counts))
 
 
-def _missing(elements: Collection[Element]) -> list[str | sp.Expr]:
-    return ["are missing" if len(elements) > 1 else "is missing"]
+def _missing(match: Match, elements: Sequence[Element], *, alone: bool) -> list[str | sp.Expr]:
+    """That forces are missing; of one in a balance of moments that is not multiplied, also its moment."""
+    if len(elements) > 1:
+        return ["are missing"]
+    moment = match.balance.formula(elements[0]) if match.balance.moment and alone else sp.S.Zero
+    if moment == 0 or moment.is_Atom or bounded.operations(moment) > LONGEST_MOMENT:
+        return ["is missing"]
+    return ["is missing; its moment is ", -moment if moment.could_extract_minus_sign() else moment]
 
 
 def plain_matches(truth: Reference, line: sp.Expr, forces: Collection[sp.Basic]) -> list[Match]:

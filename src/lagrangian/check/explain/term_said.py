@@ -70,7 +70,8 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
         of = pool.truth.derivation.coordinates[row]
         said = ("The term ", left, " of the equation of ", of, " is left over: another term cancels it.")
     elif times not in (-1, -2):
-        right = next(x for x in said if isinstance(x, sp.Expr))
+        formulas = [x for x in said if isinstance(x, sp.Expr)]
+        right = formulas[-1] if any(isinstance(x, str) and " should be " in x for x in said) else formulas[0]
         where = (
             f"T{str(term.site.words[0])[1:]}",
             (1 + sp.Rational(times.numerator, times.denominator)) * right,
@@ -82,6 +83,8 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
         return replace(mistake, what=text(*said))  # another way to say the same
     if is_of_letter(told.mistake):
         return replace(plain, what=text(*said), element=mistake.element)
+    if change is not None and change.kind == "part" and told.times == -2 and times not in (-1, -2):
+        return replace(plain, what=text(*said))  # the term has its sign
     if change is not None and change.kind == "part" and _is_odd(told.times):
         return replace(mistake, what=text(*said))  # nobody counts something 17/8 times
     return with_reason(text(*said), mistake)
