@@ -23,6 +23,7 @@ from lagrangian.check.judged import judged_lines
 from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reference import truth_of
+from lagrangian.derive import sampling
 from lagrangian.errors import ModelError
 from lagrangian.read.scope import Scope
 from size import rest_slow
@@ -56,6 +57,7 @@ def forget() -> None:
     for kept in [x for x in gc.get_objects() if isinstance(x, _lru_cache_wrapper)]:
         if getattr(kept, "__module__", "").startswith("lagrangian."):
             kept.cache_clear()
+    sampling._recent.graphs.clear()
 
 
 @pytest.mark.parametrize("name", rest_slow(ANSWERS, {"bead-on-hoop"}))

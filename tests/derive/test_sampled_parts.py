@@ -7,6 +7,7 @@ from built_in import derivation
 from effort import at_most
 from lagrangian import bounded
 from lagrangian.bounded import sizes
+from lagrangian.bounded.effort import CallCount
 from lagrangian.derive.sampling import CompiledExpressions, States
 
 
@@ -49,3 +50,24 @@ def test_several_values_of_a_symbol_at_once_are_as_one_after_the_other() -> None
     assert found.shape == (4, 4, states.size)
     for k, instead in enumerate(own):
         assert np.array_equal(found[:, k], compiled.at(states, instead))
+
+
+def test_the_same_expressions_share_their_graph_and_values_follow_the_states() -> None:
+    model = derivation("cart-pole").model
+    x, theta = (c.symbol for c in model.coordinates)
+    exprs, states = [x * sp.sin(theta) + 5, x**3], States(model, 2)
+    first = CompiledExpressions(exprs)
+    values, slopes = first.at(states), first.slopes([x, theta]).at(states)
+    again = CompiledExpressions(exprs)
+    assert again.graph is first.graph and np.array_equal(again.at(states), values)
+    again.at(states)[:] = 0.0  # a copy
+    assert np.array_equal(first.at(states), values) and np.array_equal(again.slopes([x, theta]).at(states), slopes)
+    states.fix(x, 2 * states.of(x))
+    assert np.allclose(again.at(states)[1], 8 * values[1])
+
+
+def test_what_is_counted_makes_its_own_graph() -> None:
+    expr = sp.Symbol("counted_only_here") ** 2 + 1
+    own = CompiledExpressions([expr])
+    with at_most(1_000):
+        assert CallCount(1_000, anywhere=True).run(lambda: CompiledExpressions([expr])).graph is not own.graph

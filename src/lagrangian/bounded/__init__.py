@@ -8,7 +8,7 @@ gives up after `CALLS`, and `answered` counts those of a whole question about a 
 the answer does not depend on how fast or how busy a machine is.
 """
 
-from lagrangian.bounded.effort import count_operations
+from lagrangian.bounded.effort import count_operations, is_counted
 from lagrangian.bounded.garbage import rarely_collected
 from lagrangian.bounded.irreducible import split
 from lagrangian.bounded.operations import operations
@@ -48,6 +48,7 @@ __all__ = [
     "expand",
     "factored",
     "hard",
+    "is_counted",
     "is_one",
     "is_zero",
     "letters",

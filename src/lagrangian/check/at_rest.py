@@ -10,6 +10,7 @@ What holds a position, F = m g sin α, is told by the same rows at any q, where 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from itertools import combinations
 from typing import Any, TypeAlias, cast
 
@@ -47,7 +48,7 @@ def balances(truth: Reference, expr: sp.Expr) -> bool:
     numbers = numbers_for([*sorted(letters, key=str), *(c.symbol for c in truth.model.coordinates)])
     for put in _inputs(truth, {}, expr):
         zero = {x: value for x, value in put.items() if value == 0}
-        *found, own = (_linear(cast("sp.Expr", x.xreplace(zero).xreplace(numbers)), inputs) for x in listed)
+        *found, own = (_linear(cast("sp.Expr", x.xreplace(zero)), inputs, numbers) for x in listed)
         rows = [row for row in found if row is not None and any(abs(x) > _SMALL for x in row[:-1])]
         if own is None or not rows:
             continue
@@ -101,7 +102,7 @@ def _holds(truth: Reference, expr: sp.Expr, put: Mapping[Any, Any]) -> bool | No
     numbers, chosen = _numbers(listed[:-1], coordinates, names)
     if numbers is None or (not chosen and not listed[-1].has(*coordinates)):
         return None  # there is no rest, or any parameters are possible
-    *rows, own = (_linear(cast("sp.Expr", x.xreplace(numbers)), coordinates) for x in listed)
+    *rows, own = (_linear(x, coordinates, numbers) for x in listed)
     if own is None:
         return None
     left = _reduced([row for row in rows if row is not None], own)
@@ -117,7 +118,7 @@ def _numbers(
     table = numbers_for(names)
 
     def gaps(values: Mapping[Any, Any]) -> _Row:
-        found = (_linear(cast("sp.Expr", x.xreplace(dict(values))), coordinates) for x in rows)
+        found = (_linear(x, coordinates, values) for x in rows)
         return _contradictions([row for row in found if row is not None])
 
     if not (first := gaps(table)):
@@ -132,11 +133,17 @@ def _numbers(
     return None, True
 
 
-def _linear(expr: sp.Expr, coordinates: Sequence[AppliedUndef]) -> _Row | None:
-    """The factors of the coordinates in an expression of numbers, and what is left; None if it is not linear."""
-    parts = [expr.diff(q) for q in coordinates]
-    parts.append(cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero))))
+def _linear(expr: sp.Expr, coordinates: Sequence[AppliedUndef], values: Mapping[Any, Any]) -> _Row | None:
+    """The factors of the coordinates in an expression, and what is left, with values for its letters; None if it is not
+    linear."""
+    parts = [x.xreplace(dict(values)) for x in _apart(expr, tuple(coordinates))]
     return [sp.N(x, DIGITS) for x in parts] if all(x.is_number and x.is_finite for x in parts) else None
+
+
+@lru_cache(maxsize=500)
+def _apart(expr: sp.Expr, coordinates: tuple[AppliedUndef, ...]) -> tuple[sp.Expr, ...]:
+    """The slopes of an expression, and its value where the coordinates are 0, kept for all values of its letters."""
+    return *(expr.diff(q) for q in coordinates), cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero)))
 
 
 def _reduced(rows: list[_Row], own: _Row) -> _Row:

@@ -37,6 +37,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Text, Verbatim, text
 from lagrangian.page.report import Report
 from lagrangian.read import MAX_BYTES
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 from lagrangian.structured.predict import is_long
 from lagrangian.viewed import cut
@@ -113,6 +114,7 @@ def _expanded(model: Model) -> Derived | None:
 
 
 _ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
+_NAMES = re.compile(r"[^\W\d_]\w{0,30}+")
 MOST_EXPANDED = 10_000
 """Terms of the equations, as predicted, up to which they are written out to name a mistake."""
 
@@ -143,7 +145,8 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
-    answer = replace(answer, others=tuple(map(cache, answer.others)))  # what is read to compare is read once
+    without = None if answer.read_without is None else cache(answer.read_without)
+    answer = replace(answer, others=tuple(map(cache, answer.others)), read_without=without)  # what is read is read once
     own = _deciding(derivation, answer)
     wrong: set[tuple[int, str]] = set()
     for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
@@ -161,7 +164,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
-    sought = hint or int(_needs_mistakes(answer, decides.lines))
+    sought = hint or int(_needs_mistakes(derivation, answer, decides.lines))
     verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
@@ -205,7 +208,11 @@ def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check
 def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
     """The verdict on a wrong answer with its wrong terms at the values of names in which they were made."""
     wrong = [f for f in verdict.findings if f.line.kind == "equation" and f.status is check.Status.WRONG]
-    if not hint or answer.marked is None or all(f.follows for f in wrong):
+    if (
+        not hint
+        or answer.marked is None
+        or not any(_has_values(derivation, answer, f.line) for f in wrong if not f.follows)
+    ):
         return verdict
     try:
         read, marks = answer.marked()
@@ -214,11 +221,18 @@ def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, h
     return with_origins(truth_of(derivation), verdict, marks, filled(truth_of(derivation), check.lines_of(read)))
 
 
-def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether the mistakes of a wrong answer decide how it is read: whether it has names that nothing explains, or
-    lines that may be misread."""
+def _has_values(derivation: Derived, answer: Answer, line: AnsweredLine) -> bool:
+    """Whether a line has names to which the answer may have given values; those of a program are put in already."""
+    own = {key(x) for a in answer.lines if a.kind == "definition" and a.name for x in _NAMES.findall(a.name)}
+    return answer.program or not line.names <= {key(x) for x in (*derivation.model.symbols, "t")} - own
+
+
+def _needs_mistakes(derivation: Derived, answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether the mistakes of a wrong answer decide how it is read: whether it has names that nothing explains, which
+    are no forces of constraints, or lines that may be misread."""
     marked = answer.read_marked is not None and bool(answer.marked_rows())
-    return marked or bool(answer.unknown) or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
+    asked = bool(answer.unknown) and not derivation.multipliers
+    return marked or asked or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
 
 
 def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:

@@ -11,6 +11,8 @@ Every value is a multiple of 2⁻¹², so that doubles and 50 digits represent t
 from __future__ import annotations
 
 import random
+import threading
+from collections import OrderedDict
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Protocol, cast
@@ -21,6 +23,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
+from lagrangian.bounded import is_counted
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
@@ -31,6 +34,8 @@ SIZES = 3
 """The number of sizes of states with a reach, each with both signs."""
 EXACT_INTEGER = 2**53
 """Larger whole numbers are not always exact in doubles."""
+MOST_KEPT, LONGEST_KEPT = 200, 2_000
+"""The most lists of expressions whose graphs are kept, and the most nodes of such a graph."""
 
 Array = NDArray[np.float64]
 
@@ -62,6 +67,8 @@ class States:
         self.motions = motions
         self.size = SETS * PLACES * motions
         self._known: dict[sp.Basic, Array] = {}
+        self.fixed = 0
+        """How often a symbol was given other values."""
 
     def of(self, symbol: sp.Basic) -> Array:
         """The values of a symbol, shape (size,): constant within a set for parameters, within a position for
@@ -88,6 +95,7 @@ class States:
     def fix(self, symbol: sp.Basic, values: Array) -> None:
         """Give a symbol values that follow from those of others."""
         self._known[symbol] = values
+        self.fixed += 1
 
     def blocks(self) -> Iterable[slice]:
         """The states for each position."""
@@ -102,16 +110,31 @@ def _numbers(symbol: sp.Basic, low: float, count: int) -> tuple[float, ...]:
 
 
 class CompiledExpressions:
-    """Expressions as one graph, for evaluation at states."""
+    """Expressions as one graph, for evaluation at states.
 
-    def __init__(self, exprs: Sequence[sp.Expr]) -> None:
+    Many questions are asked of the same lines: a graph, and its values, are made once for those seen most recently.
+    """
+
+    def __init__(self, exprs: Iterable[sp.Expr]) -> None:
+        listed: tuple[sp.Expr, ...] = tuple(sp.sympify(e) for e in exprs)
+        recent = None if not listed or is_counted() else _recent.graphs
+        if recent is not None and (made := recent.get(listed)) is not None:
+            recent.move_to_end(listed)
+            vars(self).update(made)
+            return
         self.graph = Graph()
         self._numbers: dict[sp.Basic, Any] = {}
         self.symbols: list[sp.Basic] = []
         self.table: dict[sp.Basic, int] = {}
         self._memo: dict[Any, int] = {}
-        self.ids = [self.node(e) for e in exprs]
-        self._walked: tuple[tuple[int, ...], list[_Step]] = (), []
+        self.ids = [self.node(e) for e in listed]
+        self._walked: dict[tuple[int, ...], list[_Step]] = {}
+        self._values: dict[tuple[int, ...], tuple[States, int, Array]] = {}
+        self._slopes: dict[tuple[sp.Basic, ...], CompiledExpressions] = {}
+        if recent is not None and len(self.graph.nodes) <= LONGEST_KEPT:
+            recent[listed] = vars(self).copy()
+            while len(recent) > MOST_KEPT:
+                recent.popitem(last=False)
 
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
@@ -182,15 +205,24 @@ class CompiledExpressions:
 
     def slopes(self, symbols: Sequence[sp.Basic]) -> CompiledExpressions:
         """∂expression/∂symbol for one expression after another."""
+        if (made := self._slopes.get(tuple(symbols))) is not None:
+            return made
         by = [self.input(x) for x in symbols]
         other = CompiledExpressions([])
         other.graph, other.symbols, other.table, other._numbers = self.graph, self.symbols, self.table, self._numbers
         other.ids = [x for i in self.ids for x in vjp(self.graph, [i], [self.graph.one], by)]
+        self._slopes[tuple(symbols)] = other
         return other
 
     def at(self, states: States, instead: Mapping[sp.Basic, Array] | None = None) -> Array:
         """The values at every state, shape (expressions, size); ``instead`` overrides symbols."""
-        return self.at_each(states, [instead or {}])[:, 0]
+        if instead:
+            return self.at_each(states, [instead])[:, 0]
+        ids = tuple(self.ids)
+        known = self._values.get(ids)
+        if known is None or known[0] is not states or known[1] != states.fixed:
+            known = self._values[ids] = states, states.fixed, self.at_each(states, [{}])[:, 0]
+        return known[2].copy()
 
     def at_each(self, states: States, instead: Sequence[Mapping[sp.Basic, Array]]) -> Array:
         """The values at every state, once with each of the values in ``instead``: shape (expressions, times, size)."""
@@ -203,9 +235,10 @@ class CompiledExpressions:
                 inputs.append(instead[0][s] if s in instead[0] else states.of(s))
             else:
                 inputs.append(np.concatenate([x[s] if s in x else states.of(s) for x in instead]))
-        if self._walked[0] != tuple(self.ids):
-            self._walked = tuple(self.ids), _steps(self.graph, reached(self.graph, self.ids))
-        found = _walk(self._walked[1], self.ids, inputs, states.size * times)
+        ids = tuple(self.ids)
+        if ids not in self._walked:
+            self._walked[ids] = _steps(self.graph, reached(self.graph, self.ids))
+        found = _walk(self._walked[ids], self.ids, inputs, states.size * times)
         return found.reshape(len(self.ids), times, states.size)
 
     def exactly(self, states: States, index: int, instead: Mapping[sp.Basic, Any] | None = None) -> list[Any]:
@@ -226,6 +259,16 @@ class CompiledExpressions:
                 {},
             )
             return list(evaluate(program, {"x": x}, digits=DIGITS)["y"]) if self.ids else []
+
+
+class _Recent(threading.local):
+    """What was compiled most recently in a thread, as graphs grow."""
+
+    def __init__(self) -> None:
+        self.graphs: OrderedDict[tuple[sp.Expr, ...], dict[str, Any]] = OrderedDict()
+
+
+_recent = _Recent()
 
 
 def _precise(number: sp.Expr) -> Any:

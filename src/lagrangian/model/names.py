@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import lru_cache
 from typing import TypeGuard, cast
 
 import sympy as sp
@@ -18,8 +19,12 @@ time = sp.Symbol("t")
 """The symbol of time, on which SymPy's ``dynamicsymbols`` depend."""
 
 
+@lru_cache(maxsize=4_000)
 def moving_symbol(name: str, *, positive: bool = False) -> AppliedUndef:
-    """Return the function of time ``name(t)``, equal to SymPy's ``dynamicsymbols(name)``; ``positive`` ones are > 0."""
+    """Return the function of time ``name(t)``, equal to SymPy's ``dynamicsymbols(name)``; ``positive`` ones are > 0.
+
+    It is made once for all systems: SymPy takes long to see that two functions which were made apart are equal.
+    """
     assumed = {"positive": True} if positive else {}
     return cast("AppliedUndef", sp.Function(name, **assumed)(time))
 

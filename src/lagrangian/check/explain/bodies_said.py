@@ -139,7 +139,7 @@ class BodiesSaid:
         ``every`` are these lines, those that may have been meant otherwise not among them.
         """
         wrong = [line for line in every if not any(line is x for x in self.rates) and not self._holds(line)]
-        if not wrong or not self.parts or any(line.kind not in JUDGED for line in wrong):
+        if not wrong or any(line.kind not in JUDGED for line in wrong) or not self.parts:
             return None
         blocks = [self._of_value(x) for x in wrong if x.kind != "equation"]
         if any(x is None for x in blocks):

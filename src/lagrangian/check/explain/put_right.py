@@ -57,11 +57,11 @@ def with_wrong_name(
     if verdict.hint == 0 or not open_ones:
         return verdict
     for line in list(_in_question(truth, lines, open_ones[0].line))[:MOST_NAMES]:
-        if (again := _without(line, lines, answer)) is None:
+        if not (values := _values(truth, line)) or (again := _without(line, lines, answer)) is None:
             continue
         symbol, others = again
         copied = [x.rhs for x in answer.lines if (x.place.line, x.name) == (line.number, line.name) and x.rhs.is_Add]
-        for value, same in _values(truth, line):
+        for value, same in values:
             put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
             if _may_mend(truth, open_ones[0].line, put) and (mended := _mended(truth, verdict, judge(put), put)):
                 return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)

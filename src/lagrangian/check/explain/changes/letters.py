@@ -33,6 +33,7 @@ class LetterChanges:
         self._found: dict[int, list[tuple[Sum, str, float]]] = {}
         self._alike: dict[sp.Symbol, list[sp.Symbol]] = {}
         self._written: dict[tuple[int, int], sp.Expr] = {}
+        self._powered: dict[tuple[sp.Expr, int], sp.Expr] = {}
         self._gained: dict[tuple[Monomial, int, int], list[tuple[Monomial, Fraction | int]]] = {}
 
     def changes(self, places: Iterable[Site]) -> Iterator[LocalChange]:
@@ -72,7 +73,7 @@ class LetterChanges:
                 cost=cost + site.surcharge,
                 site=site,
                 effect=effect,
-                right=right ** times.pop() if len(times) == 1 else 1 / right if times and max(times) < 0 else right,
+                right=self._power(right, times.pop() if len(times) == 1 else -1 if times and max(times) < 0 else 1),
                 written=self._written[atom, k],
             )
         yield from self._powers(site, atom, exponents)
@@ -309,7 +310,7 @@ class LetterChanges:
                         site=site,
                         effect=effect,
                         right=p,
-                        written=p ** abs(e),
+                        written=self._power(p, abs(e)),
                     )
 
     def _divisors(self, site: Site) -> Iterator[LocalChange]:
@@ -320,8 +321,14 @@ class LetterChanges:
             for e in (1, 2, -1, -2):
                 effect = site.changed(lambda s, a=a, e=e: {raised(m, a, e): c for m, c in s.items()})
                 kind = "foreign_factor" if e < 0 else "factor_missing"
-                written = self.ring.atoms[a] ** -abs(e)
+                written = self._power(self.ring.atoms[a], -abs(e))
                 yield LocalChange(kind=kind, cost=1.8 + site.surcharge, site=site, effect=effect, written=written)
+
+    def _power(self, base: sp.Expr, times: int) -> sp.Expr:
+        """A power of a letter or of another atom, which is made once: it stands in the words of many changes."""
+        if (base, times) not in self._powered:
+            self._powered[base, times] = base**times
+        return self._powered[base, times]
 
 
 def _is_of_whole(site: Site, effect: Site) -> bool:
