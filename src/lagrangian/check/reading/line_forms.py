@@ -116,6 +116,20 @@ def _moves(line: AnswerLine) -> bool:
     return accelerates(sp.sympify(line.residual))
 
 
+def tell_expression(side: Tree, reader: Meaning, what: str) -> None:
+    """Tell that a row without an equals sign is not judged, if it is more than a name or a list of names, (θ, x)."""
+    if not _names_alone(side):
+        written = " ".join(reader.source.text.split())
+        reader.names.notes.setdefault(f"'{written}' was not judged: it is {what} without an equals sign.")
+
+
+def _names_alone(side: Tree) -> bool:
+    side = inside(side)
+    if isinstance(side, Tree) and side.data == "matrix":
+        return all(_names_alone(x) for row in side.children[1:] for x in row.children)  # type: ignore[union-attr]
+    return only_name(side) is not None
+
+
 def is_general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
     return any(is_placeholder(x) and not is_force(x) for x in bounded.atoms(value, AppliedUndef))

@@ -26,6 +26,7 @@ from lagrangian.check.reading.line_forms import (
     matrix_rows,
     says_constant,
     solves,
+    tell_expression,
     together,
     without_expressions,
 )
@@ -244,9 +245,8 @@ class Lines:
         return lines
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
-        value = reader.finite(value, side)
+        value, name = reader.finite(value, side), subject.name
         kind: Kind = subject.kind
-        name = subject.name
         lhs: sp.Expr | None = None
         if is_general(value) and kind == "Xi" and name is not None:
             return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
@@ -351,7 +351,7 @@ class Lines:
             said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
             moves = any(map(accelerates, values[0] if listed else values))
             if said and ((meant := labelled(values[0], sides[0], reader, moving=moves)) or not moves):
-                self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
+                tell_expression(sides[0], reader, "a list" if listed else "an expression")
                 return meant
             values = [sp.S.Zero, *values] if "=" in reader.source.text else [*values, sp.S.Zero]  # eq1 = m x'' - F
             sides = [*sides, sides[0]]
