@@ -135,3 +135,66 @@ def test_a_name_with_an_index_of_one_letter_stands_in_front_of_letters_in_latex(
     for form in (one, product):
         assert right(f"{head}\n{form}\n{two}")
         assert not right(f"{head}\n{form.replace('R_2', '2R_2')}\n{two}")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "α = plank angle, k = spring stiffness, τ pushes the plank down",
+        "α = plank angle",
+        "plank angle = α",
+        "β = angle thread - vertical, α = angle below the horizontal",
+        "α = Winkel Brett - Horizontale, β = Fadenwinkel",
+        "`α` = plank angle, `β` = thread angle",
+        "Given: m, a, l = lengths, k = spring stiffness, J = plank inertia",
+        "1. coordinates: `α` (plank, + = down), `β` (thread, + = right)",
+        "Coordinates are α (positive: down) and β.",
+        "plank of length a, thread of length l, lamp m at the end.",
+        "thread angle β, plank angle α",
+        "Equations of motion: left side = right side.",
+        "f = 2 degrees of freedom",
+        "2 DOF, q = (α, β)",
+        "The thread has length l and carries the lamp m",
+        "(angle α counts positive when the plank goes down)",
+        "Step 1: α, β.",
+    ],
+)
+def test_words_that_state_no_mathematics_cause_no_notice(said: str) -> None:
+    assert told(f"{said}\n\n{PLANK}\n{LAMP}") == []
+    assert not right(f"{said}\n\n{PLANK}\n{LAMP.replace('+ m g l', '- m g l')}")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "E = plank energy, W = m g a plus the work of the spring",
+        "J is the inertia m a^2/3 times three",
+    ],
+)
+def test_mathematics_in_words_is_told_once(said: str) -> None:
+    notes = told(f"{said}\n\n{PLANK}\n{LAMP}")
+    assert len(notes) == 1, notes
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "The other spring is relaxed when α = 2 β.",
+        "At α = l β/a nothing is stretched, the thread is unstressed.",
+        "unstretched: α = β/2",
+        r"The spring is relaxed for $\alpha = \frac{l\beta}{a}$.",
+    ],
+)
+def test_where_a_spring_is_relaxed_is_no_equation_of_every_motion(said: str) -> None:
+    rows = f"{PLANK}\n{LAMP}"
+    if "$" in said:
+        rows = r"$(J + m a^2)\ddot\alpha + mal\sin(\alpha-\beta)\ddot\beta - mal\cos(\alpha-\beta)\dot\beta^2"
+        rows += r" - mga\cos\alpha + k\alpha = \tau$ and $ml^2\ddot\beta + mal\sin(\alpha-\beta)\ddot\alpha"
+        rows += r" + mal\cos(\alpha-\beta)\dot\alpha^2 + mgl\sin\beta = 0$"
+    assert any("relaxed" in x for x in told(f"{said}\n\n{rows}"))
+    without = said.replace("relaxed", "here").replace("unstressed", "here").replace("unstretched", "here")
+    assert not right(f"{without}\n\n{rows}")
+
+
+def test_a_sine_written_onto_its_angle_is_no_unit() -> None:
+    assert not any("0.00" in x for x in told(f"x = 2l cosα, so nothing\n\n{PLANK}\n{LAMP}"))

@@ -132,6 +132,20 @@ def rated_energy(
     return made_line(judged, rate, value, None, *sides, reader)
 
 
+def tell_expression(side: Tree, reader: Meaning, what: str) -> None:
+    """Tell that a row without an equals sign is not judged, if it is more than a name or a list of names, (θ, x)."""
+    if not _names_alone(side):
+        written = " ".join(reader.source.text.split())
+        reader.names.notes.setdefault(f"'{written}' was not judged: it is {what} without an equals sign.")
+
+
+def _names_alone(side: Tree) -> bool:
+    side = inside(side)
+    if isinstance(side, Tree) and side.data == "matrix":
+        return all(_names_alone(x) for row in side.children[1:] for x in row.children)  # type: ignore[union-attr]
+    return only_name(side) is not None
+
+
 def is_general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
     return any(is_placeholder(x) and not is_force(x) for x in bounded.atoms(value, AppliedUndef))

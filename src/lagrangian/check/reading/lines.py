@@ -27,6 +27,7 @@ from lagrangian.check.reading.line_forms import (
     rated_energy,
     says_constant,
     solves,
+    tell_expression,
     together,
     without_expressions,
 )
@@ -71,8 +72,7 @@ class Lines:
         self._made: dict[int, list[AnswerLine]] = {}
         self._chain = 0
         self._matrices: set[str] = set()
-        self.remarks: list[ParseError] = []
-        self.doubts: list[ParseError] = []
+        self.remarks, self.doubts = (list[ParseError]() for _ in range(2))
         """The errors of lines that matter only beside incomplete equations, and of those that redefine a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
         """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
@@ -351,7 +351,7 @@ class Lines:
             said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
             moves = any(map(accelerates, values[0] if listed else values))
             if said and ((meant := labelled(values[0], sides[0], reader, moving=moves)) or not moves):
-                self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
+                tell_expression(sides[0], reader, "a list" if listed else "an expression")
                 return meant
             values = [sp.S.Zero, *values] if "=" in reader.source.text else [*values, sp.S.Zero]  # eq1 = m x'' - F
             sides = [*sides, sides[0]]

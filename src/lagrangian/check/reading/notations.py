@@ -37,6 +37,7 @@ from lagrangian.check.reading.programs.sessions import without_prompts, without_
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.programs.templates import with_templates_applied
+from lagrangian.check.reading.prose.relaxed import without_relaxed
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
@@ -103,7 +104,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    referred = without_unit_checks(without_legend(without_references(indexed)), taken)
+    relaxed = without_relaxed(without_legend(without_references(indexed)), names.changes, taken, names.notes)
+    referred = without_unit_checks(relaxed, taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     if not latex:

@@ -20,6 +20,7 @@ from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.plain.spans import statements
 from lagrangian.check.reading.plain.tokens import with_points
+from lagrangian.check.reading.prose.descriptions import states_nothing
 from lagrangian.check.reading.prose.marks import readings
 from lagrangian.check.reading.prose.remarks import is_remark, may_redefine
 from lagrangian.check.reading.prose.words import Words
@@ -69,6 +70,7 @@ def parsed(
     found: list[Statement] = []
     errors: list[ParseError] = []
     words: list[ParseError] = []
+    silent: list[ParseError] = []
     for typed, parser in rows:
         row = reading.row(typed, words_of)
         own = _source(row, source, latex)
@@ -80,6 +82,10 @@ def parsed(
         except ParseError as error:
             if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
                 found += [replace(part, remark=remark) for part in parts]
+                continue
+            if error.code != "E703" and latex is None and states_nothing(whole, words_of):
+                silent.append(error)
+                found += [replace(x, remark=remark) for x in _meanings(own, parser, lines, words_of)]
                 continue
             lines.failed.append(error)
             lines.unread.update(key(x) for x in re.findall(NAME, whole))
@@ -97,7 +103,7 @@ def parsed(
                 break
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]
-    return found, errors if found or errors or lines.remarks else words[:1], notes
+    return found, errors if found or errors or lines.remarks else [*words, *silent][:1], notes
 
 
 def _may_hide_result(whole: str, words: Words) -> bool:

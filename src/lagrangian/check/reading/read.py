@@ -49,6 +49,7 @@ from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
+from lagrangian.check.reading.set_aside import once
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -260,7 +261,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     _check_number(rows if _states_anything(made, lines) else [], source, written)
     aside += told_remarks(remarks.lines) if reading.bare else []
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
-    notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)
+    notes = tuple(once((*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)))
     return Answer(
         made,
         "latex" if latex else "text",

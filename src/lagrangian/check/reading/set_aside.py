@@ -24,6 +24,7 @@ MOST_LACKING = 12
 
 _SPELLED = re.compile(r"dot\s?dot|p_?p\b|\w\.\.(?!\.)")
 """Accelerations in letters and in dots behind names."""
+_NOTED = re.compile(r"Line (?P<line>\d+) (?:has a part that was not read|(?P<why>could not be read))")
 _MATRIX = re.compile(r"\\begin\{[a-zA-Z]{0,8}(?:matrix|array)|[\[(][^\n=\])]{0,200}[;&]")
 
 
@@ -53,6 +54,15 @@ def told(errors: Sequence[ParseError], remarks: Sequence[ParseError]) -> list[st
     said = [f"Line {_line(e)} has a part that was not read: the equations do without it." for e in remarks[:MOST_TOLD]]
     why = (f"Line {_line(e)} could not be read ({e.what}): the equations do without it." for e in errors[:MOST_TOLD])
     return [*said, *why]
+
+
+def once(notes: Sequence[str]) -> list[str]:
+    """Notes on parts that were not read, one for each line: the one that says why, or the first."""
+    about: dict[str, str] = {}
+    for note in notes:
+        if (match := _NOTED.match(note)) is not None and (match["line"] not in about or match["why"]):
+            about[match["line"]] = note
+    return [x for x in notes if (match := _NOTED.match(x)) is None or about[match["line"]] == x]
 
 
 def _line(error: ParseError) -> int:

@@ -30,6 +30,7 @@ from lagrangian.check.reading.plain.ends import (
 )
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
+from lagrangian.check.reading.prose.descriptions import is_left_out, says_nothing
 from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
@@ -38,11 +39,8 @@ from lagrangian.check.reading.prose.sketches import without_sketches
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import (
     LINKING,
-    is_level,
-    is_prose,
     is_sentence,
     moves,
-    says_nothing,
     stated_remarks,
     without_lead,
     without_remarks,
@@ -172,9 +170,9 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     if len(found) > 1:
         told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words)]
         found, split = [row for row, _ in told], [own for _, own in told]
-    levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
-    named = zip(found, levels, strict=True)
-    return [row for row, level in named if not level and not is_prose(row.text, words)] or found[:1]
+    return [row for row, own in zip(found, split, strict=True) if not is_left_out(row.text, own.text, words)] or found[
+        :1
+    ]
 
 
 def _ended(head: str, line: str, numbers: Numbering) -> str:

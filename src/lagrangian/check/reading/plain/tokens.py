@@ -232,7 +232,8 @@ def _is_unit(behind: str, name: str, words: Words) -> bool:
     """Whether what follows the number in a value is a unit alone: no function and no name that moves stands in it, as
     in 2 F l cos θ, and a ``name`` of the answer's own is not given names of the system, as in m_t = 2 m."""
     listed = re.findall(r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*", behind)
-    if any(function_of(x) is not None or words.names.changes(x) for x in listed):
+    parts = [part for x in listed for part in words.factors(x)]  # 2L cosθ
+    if any(function_of(x) is not None or words.names.changes(x) for x in (*listed, *parts)):
         return False
     return not words.is_own(name) or not all(words.known(x) for x in listed)
 

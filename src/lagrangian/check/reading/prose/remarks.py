@@ -64,10 +64,18 @@ _CONSTANT = re.compile(
 """That a name is constant, in a formula and a word: $x =$ const."""
 
 
+_DIRECTION = re.compile(
+    r"(?<=[(,;:])[ \t]*+(?:[-+−–±]|positive?|pos\.|positiv)[ \t]*+(?:=|:)[ \t]*+"
+    r"[^\W\d_]{2,24}(?:[ \t-][^\W\d_]{1,24}){0,5}[ \t]*+(?=[),;.]|$)",
+    re.MULTILINE,
+)
+"""Which direction counts, in words: (drum, + = lowering)."""
+
+
 def without_legend(written: TracedText) -> TracedText:
-    """Return an answer without the parts that only say how rates are spelled, what a name on the line means, or which
-    multiplier belongs to a constraint, or that something is constant."""
-    written = written.sub(_LEGEND, _blank)
+    """Return an answer without the parts that only say how rates are spelled, what a name on the line means, which
+    direction counts, which multiplier belongs to a constraint, or that something is constant."""
+    written = written.sub(_LEGEND, _blank).sub(_DIRECTION, _blank)
     for form in (_BEHIND, _TOLD_BEHIND):
         written = written.sub(form, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
     written = written.sub(_CONSTANT, _blank)

@@ -70,9 +70,6 @@ _ASIDE = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]
 _ENDS = re.compile(r"[\w\u0307\u0308)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
-_DONE_TO_ALL = re.compile(r"\s*+[×·*:/÷|]\s*+[^\W_]\w{0,11}\s*+\Z")
-"""What was done to the equations: × 6, : m."""
-_SIGNS = re.compile(r"[-=+*/^()\[\]{}'’′″²³·×−\u0307\u0308\u20db]")
 _LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
 _PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
 _RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
@@ -154,7 +151,7 @@ def without_remarks(text: str, words: Words) -> str:
         listed = _WORD.findall(match[1])
         if _MATHEMATICS.search(match[1]) or any(words.known(x) for x in _IDENTIFIER.findall(match[1]) if len(x) > 2):
             continue
-        if any(_is_word(x, words) for x in listed) and not any(len(x) > 2 and words.is_name(x) for x in listed):
+        if any(is_word(x, words) for x in listed) and not any(len(x) > 2 and words.is_name(x) for x in listed):
             text = blank(text, match.start(), match.end())
     return _without_comments(text, words)
 
@@ -178,8 +175,9 @@ def _without_comments(text: str, words: Words) -> str:
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
         inside = text[start + 1 : end]
         if (behind and (_says(inside, words) or _speaks(inside, words))) or _reasons(text, start, words):
-            told = " ".join(text[start : end + 1].split())
-            words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
+            if re.search(r"[\d=+*/^'’′²³×·]", inside) or any(map(words.is_name, _WORD.findall(inside))):
+                told = " ".join(text[start : end + 1].split())
+                words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)
     return text
 
@@ -193,17 +191,17 @@ def _reasons(text: str, start: int, words: Words) -> bool:
 def _says(inside: str, words: Words) -> bool:
     """Whether what stands in brackets begins with a word that is no name, and another or a comma behind it."""
     match = _SENTENCE.match(inside)
-    if match is None or match["first"].lower() in CHANGING or not _is_word(match["first"], words):
+    if match is None or match["first"].lower() in CHANGING or not is_word(match["first"], words):
         return False
     if match["who"] or match["second"] is None:
         return True
-    return _links(match["second"], words) or _is_word(match["second"], words)
+    return is_common(match["second"], words) or is_word(match["second"], words)
 
 
 def _speaks(inside: str, words: Words) -> bool:
     """Whether what stands in brackets is mostly words: (J about the centre of mass, so J + m l^2 about the pivot)."""
     listed = _WORD.findall(inside)
-    said = sum(_links(x, words) or _is_word(x, words) for x in listed)
+    said = sum(is_common(x, words) or is_word(x, words) for x in listed)
     return said > MOST_NAMES and not moves(inside) and not any(x.lower() in CHANGING for x in listed)
 
 
@@ -220,9 +218,9 @@ def without_lead(text: str, words: Words) -> str:
         written = word.group().strip(" \t,:.")
         first = stated and end == match.start(1) + word.start()
         said = first and written == "I" and _spoken(match[1][word.end() :].split(maxsplit=1)[:1], words)
-        own = first and _is_word(written, words)
+        own = first and is_word(written, words)
         common = spoken and len(written) > 1 and written.lower() in LINKING  # put this in …, where in is no i n
-        if _links(written, words) or said or common or own:
+        if is_common(written, words) or said or common or own:
             end = match.start(1) + word.end()
         spoken = own and end == match.start(1) + word.end() and word.group().rstrip()[-1:] not in ".,:"
     changed = stated and any(x.strip(",:.").lower() in CHANGING for x in text[:end].split())
@@ -232,21 +230,21 @@ def without_lead(text: str, words: Words) -> str:
 
 def _spoken(listed: Sequence[str], words: Words) -> bool:
     """Whether what stands behind I is a word: I used …"""
-    return any(_is_word(x.strip(",:."), words) or _links(x, words) for x in listed)
+    return any(is_word(x.strip(",:."), words) or is_common(x, words) for x in listed)
 
 
 def _introduces(said: re.Match[str], words: Words) -> bool:
     """Whether what stands in front of a name that is given a value is a sentence: I prefer the distance X = a + x."""
     name = said["name"].rstrip("'’′″²^2")
-    if _is_word(name, words) and words.count(name) == 1:
+    if is_word(name, words) and words.count(name) == 1:
         return False  # one side consists of words
     listed = [x.strip(".,") for x in said["words"].split()]
     if any(x.lower() in CHANGING and not _describes(listed[k + 1 :], words) for k, x in enumerate(listed)):
         return False
-    plain = [x.isdigit() or _links(x, words) or _is_word(x, words) or x.lower() in CHANGING for x in listed]
+    plain = [x.isdigit() or is_common(x, words) or is_word(x, words) or x.lower() in CHANGING for x in listed]
     short = [x in _ARTICLES or (1 < len(x) < _SHORTEST and x.islower() and _is_new(x, words)) for x in listed]
     between = [x and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(short)]
-    return any(_is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
+    return any(is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
 
 
 def _is_new(written: str, words: Words) -> bool:
@@ -256,7 +254,7 @@ def _is_new(written: str, words: Words) -> bool:
 
 def _describes(after: Sequence[str], words: Words) -> bool:
     """Whether a changing word belongs to a noun, half length a = L/2, and not to a value, half the length a."""
-    return bool(after) and not _links(after[0], words) and _is_word(after[0], words)
+    return bool(after) and not is_common(after[0], words) and is_word(after[0], words)
 
 
 def without_tail(text: str, words: Words, *, led: bool = False) -> str:
@@ -271,14 +269,14 @@ def without_tail(text: str, words: Words, *, led: bool = False) -> str:
     if (said := _EXPLAINED.search(text)) is not None and _explains(said[1], words):
         text = blank(text, said.start(), len(text))
     if (said := _ASIDE.search(text)) is not None:  # "the" is a word, though letters of the system may spell it
-        spoken = [_is_word(x, words) or (len(x) > 1 and x.lower() in LINKING) for x in said[1].split()]
+        spoken = [is_word(x, words) or (len(x) > 1 and x.lower() in LINKING) for x in said[1].split()]
         text = blank(text, said.start(), len(text)) if 2 * sum(spoken) > len(spoken) else text
     end, count, linked, below = len(text), 0, False, ""
     while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
-        links = _links(match[1], words)
+        links = is_common(match[1], words)
         if (
             not links
-            and not _is_word(match[1], words)
+            and not is_word(match[1], words)
             and not (match[1] == "I" and below in _SAYING)
             and not _is_letter(text[:end], match[1], words, inside=count > 0)
         ):
@@ -298,16 +296,16 @@ def _is_letter(text: str, last: str, words: Words, *, inside: bool) -> bool:
     if not point and not (inside and last in _ARTICLES):
         return False
     found = _LAST.search(text[-80:].rstrip(" .,;:!")[: -len(last)])
-    return found is not None and (_links(found[1], words) or _is_word(found[1], words))
+    return found is not None and (is_common(found[1], words) or is_word(found[1], words))
 
 
 def _explains(said: str, words: Words) -> bool:
     """Whether words explain what stands before them: they begin with a word that is no name."""
     listed = _WORD.findall(said)
-    return bool(listed) and (_is_word(listed[0], words) or (_links(listed[0], words) and len(listed) > 1))
+    return bool(listed) and (is_word(listed[0], words) or (is_common(listed[0], words) and len(listed) > 1))
 
 
-def _links(written: str, words: Words) -> bool:
+def is_common(written: str, words: Words) -> bool:
     """Whether this is a common word of English, German or French, and no name of the system or of the answer."""
     return written.lower() in LINKING and not words.is_name(written) and not words.is_product(written)
 
@@ -319,13 +317,13 @@ def is_prose(text: str, words: Words) -> bool:
     if _NUMBER_ALONE.match(text) or _SINGLE.match(text) or _TITLE.match(text):
         return True
     named = [m.group() for m in _WORD.finditer(text) if not _OPENS.match(text, m.end())]
-    return any(_is_word(x, words) for x in named) or not any(map(words.known, _IDENTIFIER.findall(text)))
+    return any(is_word(x, words) for x in named) or not any(map(words.known, _IDENTIFIER.findall(text)))
 
 
 def is_sentence(text: str, words: Words) -> bool:
     """Whether a line without an equals sign is mostly words, so that no equation goes on behind it."""
     listed = _WORD.findall(text)
-    said = sum(_links(x, words) or _is_word(x, words) for x in listed)
+    said = sum(is_common(x, words) or is_word(x, words) for x in listed)
     return "=" not in text and said > MOST_NAMES and 2 * said > len(listed)
 
 
@@ -354,26 +352,11 @@ def is_statement(text: str, words: Words) -> bool:
     return both and bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
 
 
-def says_nothing(text: str, words: Words) -> bool:
-    """Whether a part of a line consists of words, or is a sentence that holds no statement, the terms are m l² θ''; a
-    note tells one with names or numbers: multiplier lambda."""
-    if _DONE_TO_ALL.match(text):
-        return True
-    listed = _WORD.findall(text)
-    spoken = [_links(x, words) or _is_word(x, words) for x in listed]
-    sentence = "=" not in text and sum(spoken) > 1 and all(spoken[:2])
-    if not sentence and (_SIGNS.search(text) or not any(_is_word(x, words) for x in listed)):
-        return False
-    if re.search(r"\d", text) or any(map(words.is_name, listed)):
-        words.names.notes.setdefault(f"'{' '.join(text.split())}' was not judged: it has no equals sign.")
-    return True
-
-
 def has_words(text: str, words: Words) -> bool:
     """Whether two words that are no names stand next to each other, one a common one: = sum of inertias × φ''."""
     for match in _TWO.finditer(text):
         pair = match.groups()
-        if any(_links(x, words) for x in pair) and any(_is_word(x, words) for x in pair):
+        if any(is_common(x, words) for x in pair) and any(is_word(x, words) for x in pair):
             return True
     return False
 
@@ -391,7 +374,7 @@ def in_words(text: str, words: Words) -> bool:
     return len(sides) > 1 and told and not own
 
 
-def _is_word(written: str, words: Words) -> bool:
+def is_word(written: str, words: Words) -> bool:
     """Whether this is a word and no name: long enough, and nothing that the system or the answer has."""
     parts = re.split(r"['’-]", written)
     return any(
