@@ -54,3 +54,22 @@ def test_a_missing_inertia_is_sought_among_bodies() -> None:
     assert dial().check(rows).right
     [mistake] = dial().check(rows.replace("(J + m r^2)", "m r^2")).mistakes
     assert "springs" not in str(mistake.why), mistake.why
+
+
+@pytest.mark.parametrize(
+    ("line", "note"),
+    [
+        ("\\[ \\mathbf v = \\dot r \\mathbf e_1 + r \\dot\\psi \\mathbf e_2 \\]", "it is a vector"),
+        ("d/dt(∂T/∂q') − ∂T/∂q + ∂V/∂q + ∂D/∂q' = Q", "it is a general form"),
+    ],
+)
+def test_why_a_line_is_not_judged_is_true(line: str, note: str) -> None:
+    rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
+    verdict = dial().check(f"{line}\n{rows}")
+    assert verdict.right and any(str(n).endswith(f"was not judged: {note}.") for n in verdict.notes), verdict.notes
+
+
+def test_words_and_differentials_are_no_products() -> None:
+    rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
+    verdict = dial().check(f"The dial turns freely (with w = const).\n{rows}")
+    assert verdict.right and not any("Products" in str(n) for n in verdict.notes), verdict.notes
