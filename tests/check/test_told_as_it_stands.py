@@ -41,9 +41,9 @@ def test_a_rate_in_a_given_energy_is_told_as_it_was_written(wheel_on_hub: lg.Der
 
 def test_what_is_in_the_right_force_as_well_is_not_in_another_in_its_place(wheel_on_hub: lg.Derivation) -> None:
     words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "2 P R - tau + d w'"}))
-    assert "in place of" not in words and words.count("is counted in Xi_1 as well") == 2, words
+    assert "in place of" not in words and words.count("is counted in Q_p as well") == 2, words
     words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "2 P R + tau", "motor": "-d w'"}))
-    assert words == "Torque 'motor' is counted in Xi_1 in place of Xi_2.", words
+    assert words == "Torque 'motor' is counted in Q_p in place of Q_w.", words
 
 
 def test_a_wrong_arm_is_no_second_share_of_a_force(wheel_on_hub: lg.Derivation) -> None:

@@ -27,6 +27,7 @@ from lagrangian.check.explain.as_it_was_written import with_terms_as_written
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.derivatives_said import with_terms_of_equations
+from lagrangian.check.explain.forces_named import with_forces_named
 from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
@@ -115,7 +116,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
             verdict = with_fitting_advice(truth, said.lines, with_terms_as_written(truth, with_sides(verdict)))
-            verdict = with_twice_said(said.lines, verdict)
+            verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
         verdict = said_in_numbers(truth, in_own_names(truth, written, verdict))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:

@@ -64,6 +64,7 @@ OTHER_SIDE = text("The generalized force is right: what is moved to the other si
 WHOLE_VELOCITY = text(
     "It feels the whole velocity of the point on which it acts, against what it rubs on: what carries the body counts."
 )
+OF_BODIES = text("Every mass and every moment of inertia that moves counts: go through the sketch, body by body.")
 TERM_BY_TERM = text("Go through this equation once more, term by term.")
 _INERTIA = text(
     "J is the moment of inertia about the centre of mass; about another axis, m a² is added, with its distance a."
@@ -153,6 +154,8 @@ def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collecti
         return _of_term(truth, mistake, balances)
     if (special := _of_efforts(truth, mistake, why, right)) is not None:
         return special
+    if balances and mistake.name == "element_forgotten" and mistake.step == 2:
+        return OF_BODIES
     if balances and mistake.name in BALANCES and _LAGRANGE.search(why):
         return BALANCES[mistake.name]
     if balances and why in OF_STEPS:

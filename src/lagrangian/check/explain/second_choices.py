@@ -31,6 +31,14 @@ OF_WHAT_IS_THERE = ("small_angle", "angle", "exchanged", "damper_other_velocity"
 """Further mistakes in what is written, besides signs and functions."""
 STATED = {2: ("T", "L"), 3: ("V", "L")}
 """The lines that state what is made in a step."""
+SAME = frozenset(
+    {
+        ("share_moved", "force_wrong_equation"),
+        ("velocity_part_left_out", "one_component"),
+        ("piece_left_out", "one_component"),
+    }
+)
+"""Names of mistakes in one element of which the first says no more than the second."""
 SECOND = " Or: "
 """What stands before a second reason."""
 
@@ -94,6 +102,8 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
     if replaced and (one == two or (len(quoted) > 1 and quoted == others)):
         return True
     if mistake.name == ANOTHER_FACTOR and mistake.element == other.element:
+        return True
+    if (mistake.name, other.name) in SAME and mistake.element == other.element:
         return True
     if _family(mistake) != _family(other):
         return False

@@ -87,8 +87,10 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
         for x in joined
     ]
     halved = any(isinstance(x, str) and "½ in" in x for x in found)
-    found = [_OF.sub(of_element, x) if isinstance(x, str) and whole and not halved else x for x in found]
-    return text(*found)
+    if not whole or halved:
+        return text(*found)
+    slopes = {k + 2 for k, x in enumerate(found) if isinstance(x, str) and x.endswith("∂/∂")}  # ∂/∂θ of the energy
+    return text(*(_OF.sub(of_element, x) if isinstance(x, str) and k not in slopes else x for k, x in enumerate(found)))
 
 
 def _joined(said: Text) -> Iterator[str | Left | Verbatim]:

@@ -37,7 +37,7 @@ from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
-from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
+from lagrangian.check.reading.parts import left_out, tell_general, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -249,8 +249,8 @@ class Lines:
         if is_general(value) and kind == "Xi" and name is not None:
             return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
         if is_general(value):
-            if any(not is_placeholder(x) for x in value.atoms(AppliedUndef)):
-                self._not_judged(reader, "an energy in it has no value")  # L = T - V + λ (x² + y² - l²)
+            if (why := why_not_judged(value)) is not None:
+                self._not_judged(reader, why)  # L = T - V + λ (x² + y² - l²)
             return made_line("statement", None, value, name or kind, sides[0], side, reader)
         if kind in ENERGIES and (given := self.subjects.parameter(sides[0], value)) is not None:
             return made_line("given", None, value, given, sides[0], side, reader)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 from lark import Tree
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reading.answer import Kind
@@ -14,7 +15,7 @@ from lagrangian.check.reading.line_forms import listed_names
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import start_of
-from lagrangian.check.reading.placeholders import ENERGIES
+from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_slope
 from lagrangian.quantities.source import Source
 
 _PARTS = "TVUEKPW"
@@ -73,3 +74,13 @@ def tell_general(source: Source, new: Sequence[str], names: Names) -> None:
 def _new_in(value: sp.Expr, names: Names) -> set[sp.Basic]:
     """The names in an expression that neither the system nor the answer explains."""
     return {x for x in bounded.letters(value) if names.is_unknown(x)}
+
+
+def why_not_judged(value: sp.Expr) -> str | None:
+    """Why a line with energies or variations that have no value is not judged; None if it holds nothing else."""
+    held = bounded.atoms(value, AppliedUndef)
+    if all(is_placeholder(x) for x in held):
+        return None
+    if any(x.func.__name__.startswith("\u27e8vector ") for x in held):
+        return "it is a vector"
+    return "it is a general form" if any(is_slope(x) for x in held) else "an energy in it has no value"

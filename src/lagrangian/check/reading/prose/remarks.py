@@ -57,11 +57,12 @@ _MULTIPLIER = re.compile(
 )
 """The multiplier of a constraint, behind a gap or a comma at the end of its line."""
 _CONSTANT = re.compile(
-    r"\$\\?[A-Za-z]{1,12}[ \t]*=[ \t]*\$[ \t]*(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?"
+    r"(?:\$\\?[A-Za-z]{1,12}[ \t]*=[ \t]*\$|(?:(?<=\()|(?<=, )|(?<=with ))[^\W\d]\w{0,11}[ ]?=)[ \t]*"
+    r"(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?"
     r"(?=[ \t]*(?:[,;)]|$|[ \t](?:is|are|and|as|for|ist|und|est|et)\b))",
     re.IGNORECASE | re.MULTILINE,
 )
-"""That a name is constant, in a formula and a word: $x =$ const."""
+"""That a name is constant, in a formula and a word, $x =$ const., or beside a sentence: with w = const."""
 
 
 _DIRECTION = re.compile(

@@ -49,7 +49,7 @@ MAX_TOLD = 6
 """The largest number of split words that a note lists."""
 
 _WHOLE = frozenset(
-    ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot"]
+    ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot", "const"]
 )
 _NUMBER = re.compile(r"\d+")
 _GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
@@ -246,9 +246,14 @@ class Words:
                 what = f"'{word}' can mean {one} or {other}"
                 raise source.error(what, start, fix="write the product that you mean with its *", code="E402")
             if found:
-                self._split.setdefault(word, " ".join(found[0]))
+                if not self._is_differential(found[0]):
+                    self._split.setdefault(word, " ".join(found[0]))
                 return found[0]
         return [word]
+
+    def _is_differential(self, parts: list[str]) -> bool:
+        """Whether a word is d and a name, where d is no name: dx of dx/dθ."""
+        return len(parts) == 2 and parts[0] == "d" and not self.known("d") and "d" not in self._own
 
     def _is_constant(self, name: str) -> bool:
         """Whether the system has this name, and it does not change with time."""

@@ -1,0 +1,75 @@
+"""What is told has the names of the answer, is said once, and advises what fits.
+
+Oracle: by hand. A tray m slides along a radius r of a dial (J) that turns with ψ, with a motor M on the dial, a damper
+on the tray and one in the bearing:
+
+    m r̈ − m r ψ̇² = −b ṙ,     (J + m r²) ψ̈ + 2 m r ṙ ψ̇ = M − c ψ̇
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from lagrangian import Derivation, System
+
+
+@cache
+def dial() -> Derivation:
+    """A tray that slides on a dial."""
+    sys = System("dial")
+    r, psi = sys.coordinates("r psi")
+    m, J, b, c = sys.parameters("m J b c")
+    M = sys.inputs("M")
+    turned = sys.frame(psi, name="dial")
+    sys.rigid_body(0, J, at=sys.origin, frame=turned, name="dial")
+    sys.particle(m, at=turned.point(r, 0), name="tray")
+    sys.damper(b, deflection=r, name="guide")
+    sys.damper(c, deflection=psi, name="bearing")
+    sys.torque(M, on=psi, name="motor")
+    return sys.derive()
+
+
+T = "T = 1/2 m (r'^2 + r^2 psi'^2) + 1/2 J psi'^2\n"
+
+
+@pytest.mark.parametrize(
+    ("radial", "turning", "told"),
+    [
+        ("Q_r", "Q_psi", "Torque 'motor' is counted in Q_r in place of Q_psi."),
+        ("Xi_r", "Xi_psi", "Torque 'motor' is counted in Xi_r in place of Xi_psi."),
+        ("Q_1", "Q_2", "Torque 'motor' is counted in Xi_1 in place of Xi_2."),
+    ],
+)
+def test_forces_have_the_names_of_the_answer(radial: str, turning: str, told: str) -> None:
+    assert dial().check(f"{T}{radial} = -b r'\n{turning} = M - c psi'").right
+    verdict = dial().check(f"{T}{radial} = M - b r'\n{turning} = -c psi'")
+    assert [str(m.what) for m in verdict.mistakes] == [told]
+    assert "It could also be this" not in verdict.to_text()
+
+
+def test_a_missing_inertia_is_sought_among_bodies() -> None:
+    rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
+    assert dial().check(rows).right
+    [mistake] = dial().check(rows.replace("(J + m r^2)", "m r^2")).mistakes
+    assert "springs" not in str(mistake.why), mistake.why
+
+
+@pytest.mark.parametrize(
+    ("line", "note"),
+    [
+        ("\\[ \\mathbf v = \\dot r \\mathbf e_1 + r \\dot\\psi \\mathbf e_2 \\]", "it is a vector"),
+        ("d/dt(∂T/∂q') − ∂T/∂q + ∂V/∂q + ∂D/∂q' = Q", "it is a general form"),
+    ],
+)
+def test_why_a_line_is_not_judged_is_true(line: str, note: str) -> None:
+    rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
+    verdict = dial().check(f"{line}\n{rows}")
+    assert verdict.right and any(str(n).endswith(f"was not judged: {note}.") for n in verdict.notes), verdict.notes
+
+
+def test_words_and_differentials_are_no_products() -> None:
+    rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
+    verdict = dial().check(f"The dial turns freely (with w = const).\n{rows}")
+    assert verdict.right and not any("Products" in str(n) for n in verdict.notes), verdict.notes
