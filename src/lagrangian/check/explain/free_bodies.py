@@ -36,13 +36,15 @@ NEAR = 1e-8
 class Balance:
     """The inertia of some bodies along a direction or about a point, and the known forces on them, at every state.
 
-    ``slopes`` are those of the inertia with every acceleration, one state after another.
+    ``slopes`` are those of the inertia with every acceleration, one state after another. Of forces that are ``shared``,
+    known by a deflection alone, it is not known on which of more bodies they act.
     """
 
     moment: bool
     inertia: Array
     slopes: Array
     loads: Mapping[Element, Array]
+    shared: frozenset[Element] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +267,9 @@ class _Balancing:
                 force = loads[[*group, len(terms)]].sum(axis=0)
                 acting = {e: force[k] for k, e in enumerate(elements) if np.abs(force[k]).max() > NEAR}
                 if np.abs(whole).max() > NEAR:
-                    yield Balance(any(terms[i].moment for i in group), inertia[group].sum(axis=0), whole, acting)
+                    shared = frozenset(passed if size < len(terms) else ())
+                    moment = any(terms[i].moment for i in group)
+                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, shared)
 
 
 @dataclass(frozen=True, eq=False)
