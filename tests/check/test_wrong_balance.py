@@ -296,3 +296,64 @@ def test_a_balance_that_only_says_what_a_force_is_is_not_called_right() -> None:
     assert not verdict.right
     assert not [f for f in verdict.findings if f.status.right and f.line.number in (3, 4)]
     assert all(f.line.number != 1 for f in verdict.findings)  # s is a length, and nothing that moves
+
+
+@cache
+def roller() -> lg.Derivation:
+    """A disc A, B of radius a with a mass m at the distance e that rolls, pulled back by a band off its top."""
+    s = lg.System("roller with a band")
+    u = s.coordinate("u")
+    A, B, m, a, e, k, g = s.parameters("A B m a e k g")
+    s.rigid_body(mass=A, inertia=B, at=s.point("O", (a * u, a)), frame=s.frame(-u, name="disc"), name="disc")
+    s.particle(m, at=s.point("H", (a * u + e * sp.sin(u), a + e * sp.cos(u))), name="lump")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=2 * a * u, name="band")
+    return s.derive()
+
+
+ROLLER = """Z = 2 k a u, pull of the band
+A x_O'' + m x_H'' = -Z - h
+B u'' + m e cos(u) x_H'' - m e sin(u) y_H'' = h a + m g e sin(u) - Z a
+x_O'' = a u''
+x_H'' = a u'' + e cos(u) u'' - e sin(u) u'^2
+y_H'' = -e sin(u) u'' - e cos(u) u'^2
+(B + A a^2 + m (a^2 + e^2 + 2 a e cos(u))) u'' - m a e sin(u) u'^2 - m g e sin(u) + 4 k a^2 u = 0"""
+
+
+def test_accelerations_may_stand_below_the_balances_that_use_them() -> None:
+    verdict = roller().check(ROLLER)
+    assert verdict.right
+    assert not any("was not judged" in str(x) for x in verdict.notes), verdict.notes
+
+
+def test_a_balance_that_lacks_a_force_which_others_have_by_name_is_the_wrong_one() -> None:
+    verdict = roller().check(ROLLER.replace(" - Z a", "").replace("4 k a^2", "2 k a^2"))
+    wrong = {f.line.number: f.follows for f in verdict.findings if not f.status.right}
+    assert wrong == {3: False, 7: True}, wrong
+    assert "the term 2*a^2*k*u is missing" in " ".join(str(verdict.mistakes[0].what).split())
+
+
+@cache
+def hanging() -> lg.Derivation:
+    """A block M on a vertical spring from which a mass m hangs by a rod l."""
+    s = lg.System("block and pendulum")
+    y, theta = s.coordinates("y theta")
+    M, m, l, k, g = s.parameters("M m l k g")
+    s.particle(M, at=s.point("B", (0, y)), name="block")
+    s.particle(m, at=s.point("P", (l * sp.sin(theta), y - l * sp.cos(theta))), name="bob")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=y, name="spring")
+    return s.derive()
+
+
+def test_components_of_a_force_are_no_generalized_forces() -> None:
+    answer = """m x_P'' = Q_x
+m y_P'' = Q_y - m g
+M y'' = -Q_y - M g - k y
+Q_x cos(theta) + Q_y sin(theta) = 0
+x_P'' = l cos(theta) theta'' - l sin(theta) theta'^2
+y_P'' = y'' + l sin(theta) theta'' + l cos(theta) theta'^2"""
+    assert hanging().check(answer).right
+    verdict = hanging().check(answer.replace("- m g", "+ m g"))
+    assert not verdict.right
+    assert not any("Ξ" in str(m.what) for m in verdict.mistakes)

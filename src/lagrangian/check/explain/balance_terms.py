@@ -7,6 +7,7 @@ explains it if it is that, or a multiple of it by a plain factor, for all values
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations_with_replacement
 from typing import cast
 
@@ -37,6 +38,8 @@ NEW_ANGLE = 0.4
 """What it costs more to lack a component along an angle that the line has not."""
 OTHER_INERTIA = 1.7
 """What a moment of inertia about another point costs."""
+OF_LAW = 1.5
+"""What it costs more that the force of a spring or damper is wrong under its name, which is its right law."""
 CLEAR = 0.3
 """By how much one has to be plainer than all others."""
 
@@ -49,7 +52,24 @@ class Mend:
     term: WrongTerm
 
 
-def mends(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array], forces: Sequence[sp.Basic]) -> list[Mend]:
+@dataclass(frozen=True)
+class Laws:
+    """The right laws of springs and dampers, by name, that a line has, and those that only other balances have."""
+
+    here: tuple[sp.Expr, ...] = ()
+    elsewhere: tuple[sp.Expr, ...] = ()
+
+
+NO_LAWS = Laws()
+
+
+def mends(
+    truth: Reference,
+    expr: sp.Expr,
+    values: Mapping[sp.Basic, Array],
+    forces: Sequence[sp.Basic],
+    laws: Laws = NO_LAWS,
+) -> list[Mend]:
     """The terms with which a line would be right along the right motion, the plainest first.
 
     ``values`` are those of the accelerations and of the ``forces`` of the answer's own.
@@ -68,8 +88,14 @@ def mends(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array], for
         Mend(_cost(truth, w), w) for _, w in in_factors(truth, shaped[0], across) if not _is_of_centre(truth, expr, w)
     ]
     listed += _other_inertias(truth, expr, found[0], values)
-    listed += _missing(truth, expr, found[0], values, forces)
+    listed += _missing(truth, expr, found[0], values, forces, laws.elsewhere)
+    listed = [replace(m, cost=m.cost + OF_LAW) if _is_law(m.term, laws.here) else m for m in listed]
     return sorted(listed, key=lambda x: x.cost)
+
+
+def _is_law(wrong: WrongTerm, laws: Sequence[sp.Expr]) -> bool:
+    """Whether a term that is wrong by a number is nothing but the force of a name."""
+    return wrong.factor.is_number and any(bounded.expand(wrong.term - s * x) == 0 for x in laws for s in (1, -1))
 
 
 def plainest(listed: Mapping[int, Sequence[Mend]]) -> tuple[int, WrongTerm] | None:
@@ -162,9 +188,10 @@ def _missing(
     wrong: Array,
     values: Mapping[sp.Basic, Array],
     forces: Sequence[sp.Basic],
+    laws: Sequence[sp.Expr],
 ) -> Iterator[Mend]:
     """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are."""
-    bases = list(_bases(truth, expr, forces))
+    bases = [*_bases(truth, expr, forces), *((MISSING, x) for x in laws)]
     arms = list(_arms(truth, expr))
     exprs = [x for _, x in (*bases, *arms)]
     found = CompiledExpressions(exprs).at(truth.states, values)

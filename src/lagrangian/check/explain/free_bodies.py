@@ -36,7 +36,8 @@ NEAR = 1e-8
 class Balance:
     """The inertia of some bodies along a direction or about a point, and the known forces on them, at every state.
 
-    ``slopes`` are those of the inertia with every acceleration, one state after another.
+    ``slopes`` are those of the inertia with every acceleration, one state after another. Of forces that are ``shared``,
+    known by a deflection alone, it is not known on which of more bodies they act.
     """
 
     moment: bool
@@ -44,6 +45,7 @@ class Balance:
     slopes: Array
     loads: Mapping[Element, Array]
     formulas: tuple[Mapping[Element, sp.Expr], ...] = ()
+    shared: frozenset[Element] = frozenset()
 
     def formula(self, element: Element) -> sp.Expr:
         """What a force adds to the balance."""
@@ -271,7 +273,8 @@ class _Balancing:
                 acting = {e: force[k] for k, e in enumerate(elements) if np.abs(force[k]).max() > NEAR}
                 if np.abs(whole).max() > NEAR:
                     moment, formulas = any(terms[i].moment for i in group), tuple(terms[i].loads for i in group)
-                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, (*formulas, passed))
+                    shared = frozenset(passed if size < len(terms) else ())
+                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, (*formulas, passed), shared)
 
 
 @dataclass(frozen=True, eq=False)

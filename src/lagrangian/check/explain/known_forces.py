@@ -24,6 +24,7 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Ver
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Damper, Element, Force, Spring, Torque, time
 from lagrangian.page.formula import Text, text
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 MOST_LETTERS = 12
@@ -44,7 +45,8 @@ TIMES: dict[sp.Expr, str] = {sp.Integer(2): "twice", sp.S.Half: "half"}
 class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
     element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
-    is written. It is ``tentative`` where a force may be in one of the answer's own."""
+    is written. It is ``tentative`` where a force may be in one of the answer's own, ``shared`` where other bodies may
+    have the rest of it."""
 
     right: bool
     moment: bool
@@ -54,6 +56,7 @@ class KnownPart:
     acting: frozenset[Element] = frozenset()
     term: WrongTerm | None = None
     tentative: bool = False
+    shared: bool = False
 
     def may_lack(self, truth: Reference, term: sp.Expr) -> bool:
         """Whether a line with right known forces may still lack a term: one of an element that is not known to act."""
@@ -92,6 +95,8 @@ def _part(
         if times is None or len(set(listed.values())) > 1:
             return KnownPart(False, moment)
         part = _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
+        shared = listed.keys() <= match.balance.shared and bool(times.is_number and times.is_positive)
+        part = replace(part, shared=shared)
         return replace(part, term=_term(truth, line, match, times)) if len(listed) == 1 else part
     alone = _factor(factors, match.scale) in (1, -1)
     if missing:
@@ -217,6 +222,14 @@ def _right_law(truth: Reference, line: AnsweredLine) -> tuple[str, sp.Expr] | No
     nearest = signs[apart.index(min(apart))]
     titles = " and ".join(f"the force of {e.title}" for e, _ in used)
     return titles, sp.Add(*(int(s) * effort for s, (_, effort) in zip(nearest, used, strict=True)))
+
+
+def right_laws(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[str, sp.Expr]:
+    """The names of an answer that are the forces of springs and dampers, with these."""
+    laws = _laws(truth)
+    named = [x for x in lines if x.kind == "definition" and x.name and not weighs(truth, x)]
+    named = [x for x in named if any(own & bounded.letters(x.expr) for _, own, _ in laws)]
+    return {key(str(x.name)): x.expr for x in named if _right_law(truth, x) is None}
 
 
 def _laws(truth: Reference) -> list[tuple[Element, set[sp.Basic], sp.Expr]]:

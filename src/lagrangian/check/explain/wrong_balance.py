@@ -16,9 +16,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
-from lagrangian.check.explain.balance_terms import Mend, mends, plainest
+from lagrangian.check.explain.balance_terms import Laws, Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
-from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, with_wrong_law
+from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
 from lagrangian.check.explain.solved_forces import (
     Balances,
@@ -84,7 +84,7 @@ def with_wrong_balance(
     balances, derived = without_derived(on, balances, lines)
     later = (*later, *derived)
     parts = known_parts(truth, balances.lines, balances.forces)
-    solved = _one_blamed(on, balances, later, parts)
+    solved = _one_blamed(on, balances, later, parts, right_laws(truth, lines))
     if solved is None:
         notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
         beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
@@ -204,14 +204,21 @@ def _of_derivatives(mistake: Mistake) -> bool:
 
 
 def _one_blamed(
-    truth: Reference, balances: Balances, later: Sequence[AnsweredLine], parts: Mapping[int, KnownPart]
+    truth: Reference,
+    balances: Balances,
+    later: Sequence[AnsweredLine],
+    parts: Mapping[int, KnownPart],
+    named: Mapping[str, sp.Expr],
 ) -> WrongBalance | None:
     """The line that is wrong; None if it may be several, and none of them would be right with a plain term.
 
-    One with a known force that is wrong comes first; in one whose known ``parts`` are right its own forces are wrong.
+    One with a known force that is wrong comes first; in one whose known ``parts`` are right its own forces are wrong,
+    or it lacks a force that others have by its name. ``named`` are the right laws of such.
     """
     every, apart = range(len(balances.lines)), left_out(balances)
     told = [i for i in every if i in parts and parts[i].said is not None and (not apart or i in apart)]
+    laws = [_laws_in(balances, i, named) for i in every]
+    told = [i for i in told if not (parts[i].shared and laws[i].here)]
     for i in told:
         u = balances.forces_without(i) if apart else None
         if u is not None and is_true(truth, balances.lines[i], truth.accelerations | u, parts[i].excess):
@@ -235,7 +242,7 @@ def _one_blamed(
     for i in apart:
         if (u := balances.forces_without(i)) is not None:
             given[i] = truth.accelerations | u
-            found = mends(truth, balances.lines[i].expr, given[i], list(u))
+            found = mends(truth, balances.lines[i].expr, given[i], list(u), laws[i])
             if (part := parts.get(i)) is not None and part.right:
                 found = [m for m in found if _may_be(truth, part, m.term, balances.forces)]
             if part is not None and part.moment:
@@ -247,6 +254,14 @@ def _one_blamed(
     i, term = best
     false = tuple(x for x in later if not is_true(truth, x, given[i]))
     return WrongBalance(i, balances.lines[i], term, false, few=True)
+
+
+def _laws_in(balances: Balances, i: int, named: Mapping[str, sp.Expr]) -> Laws:
+    """The right laws that a line has by name, and those that only others have."""
+    own = balances.lines[i].names
+    used = set[str]().union(*(x.names for x in balances.lines))
+    here, elsewhere = (tuple(x for name, x in named.items() if name in some) for some in (own, used - own))
+    return Laws(here, elsewhere)
 
 
 def _may_be(truth: Reference, part: KnownPart, wrong: WrongTerm, forces: Sequence[sp.Basic]) -> bool:

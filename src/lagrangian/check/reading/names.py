@@ -139,6 +139,9 @@ class Names:
         of = of_coordinate(written)
         if of is not None and key(of[1]) in self.defined and not self.scope.meanings(of[1])[0]:
             return None  # Q_s of an s that the answer defines, beside x_s
+        for axis in "xyz" if of is not None and of[1] in ("x", "y", "z") else "":
+            if key(written)[:-1] + axis in self._seen and not self.scope.meanings(axis)[0] and axis not in self.defined:
+                return None  # Q_y beside Q_x, where x is no coordinate: a force's components
         return force_of(written, self.model, named=self._named_forces)
 
     def changes(self, written: str) -> bool:

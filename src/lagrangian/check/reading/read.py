@@ -275,13 +275,18 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         bool(lines.lacking),
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
-        lambda numbers: _with_said_values(
-            reading, [], without_lines(given, numbers), model, place, asked=lines.names.unexplained
-        ),
+        partial(_left_out, reading, given, model, place, lines.names.unexplained),
         commented=bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
     )
+
+
+def _left_out(
+    reading: Choices, text: str, model: Model, place: Place | None, asked: frozenset[str], numbers: frozenset[int]
+) -> Answer:
+    """The answer without some lines; what these say of a name no sentence says."""
+    return _with_said_values(reading, [], without_lines(text, numbers), model, place, asked)
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
