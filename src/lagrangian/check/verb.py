@@ -27,7 +27,15 @@ from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_m
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
-from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.readings_compared import (
+    ENTRY,
+    computes_right,
+    is_misread,
+    of_comments,
+    open_findings,
+    program_of,
+    wrong_together,
+)
 from lagrangian.check.reference import truth_of
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
@@ -113,7 +121,6 @@ def _expanded(model: Model) -> Derived | None:
     return None if hopeless else model.remembered("expanded", made)
 
 
-_ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
 _NAMES = re.compile(r"[^\W\d_]\w{0,30}+")
 MOST_EXPANDED = 10_000
 """Terms of the equations, as predicted, up to which they are written out to name a mistake."""
@@ -156,13 +163,13 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             continue
         for decides in own if other is answer else _deciding(derivation, other):
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
-            needed = _of_comments(wrong) if other.program else wrong
+            needed = of_comments(wrong) if other.program else wrong
             if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
                 if not other.program and (computed := _contradicting(derivation, answer)) is not None:
                     return _of_readings(derivation, computed, hint)
                 return _told(_apart(derivation, other, verdict), other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
-            wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
+            wrong |= wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
     sought = hint or int(_needs_mistakes(derivation, answer, decides.lines))
     verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
@@ -175,18 +182,18 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = _with_balances(derivation, answer, decides, verdict)
         verdict = _with_names(derivation, answer, decides, verdict)
     asked = unexplained(derivation, answer, verdict)
-    unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
-    program = None if verdict.right and not unsure else _program(answer)
-    if program is not None and (unsure or _computes_right(verdict, _judged(derivation, program)[1])):
+    unsure = asked or is_misread(verdict) or (answer.doubt is not None and not verdict.right)
+    program = None if verdict.right and not unsure else program_of(answer)
+    if program is not None and (unsure or computes_right(verdict, _judged(derivation, program)[1])):
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
-    if not answer.program and len(_open(verdict)) > 1 and program is not None:
+    if not answer.program and len(open_findings(verdict)) > 1 and program is not None:
         try:
             other = _of_readings(derivation, program, hint)
         except ParseError:
             other = verdict
-        if 0 < len(_open(other)) < len(_open(verdict)):
+        if 0 < len(open_findings(other)) < len(open_findings(verdict)):
             return other
     if asked:
         lines = without_names_of_equations(decides.lines, asked)
@@ -232,7 +239,7 @@ def _needs_mistakes(derivation: Derived, answer: Answer, lines: Sequence[Answere
     are no forces of constraints, or lines that may be misread."""
     marked = answer.read_marked is not None and bool(answer.marked_rows())
     asked = bool(answer.unknown) and not derivation.multipliers
-    return marked or asked or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
+    return marked or asked or answer.doubt is not None or any(ENTRY.fullmatch(x.text) for x in lines)
 
 
 def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
@@ -276,19 +283,6 @@ def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int,
     return {(x.number, x.text) for x in wrong if x.beside and not x.beside & cases}
 
 
-def _open(verdict: check.Verdict) -> list[check.Finding]:
-    """The findings that are wrong and follow from none."""
-    return [f for f in verdict.findings if f.status is check.Status.WRONG and not f.follows]
-
-
-def _program(answer: Answer) -> Answer | None:
-    """The reading in which an answer is a program that is carried out, if it is one and was not read so."""
-    try:
-        return next((x for other in answer.others[-1:] if (x := other()).program), None)
-    except ParseError:
-        return None
-
-
 def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
     """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say; what it
     gives the inputs is no mistake."""
@@ -306,48 +300,7 @@ def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
             return None
     except ParseError:
         return None
-    return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed
-
-
-def _misread(verdict: check.Verdict) -> bool:
-    """Whether a line that only takes an entry of a state, v = y(3), or gives a constant a value, m = 2, is called
-    wrong: it says nothing of the motion."""
-    wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG]
-    return any(_ENTRY.fullmatch(x.text) or _gives_number(x) for x in wrong)
-
-
-def _gives_number(line: AnsweredLine) -> bool:
-    """Whether a line equates one letter and a number."""
-    letters = line.expr.free_symbols
-    return line.kind == "equation" and len(letters) == 1 and bool(line.expr.diff(*letters).is_number)
-
-
-def _computes_right(typed: check.Verdict, computed: check.Verdict) -> bool:
-    """Whether a wrong program computes what is right where a line is called wrong as it is typed: a loop adds to T. One
-    that is right as a whole was accepted among the readings, unless a remark in it is wrong."""
-
-    def lines(verdict: check.Verdict, wrong: bool) -> set[tuple[int, str]]:
-        found = {(f.line.number, f.line.kind) for f in verdict.findings if (f.status is check.Status.WRONG) == wrong}
-        return {x for x in found if x[1] in ("T", "V", "L", "equation")}
-
-    right = lines(computed, False) - lines(computed, True)
-    kinds = {kind for _, kind in lines(computed, True)}
-    energies = {kind for _, kind in right if kind != "equation" and kind not in kinds}
-    return not computed.right and any(x in right or x[1] in energies for x in lines(typed, True))
-
-
-def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:
-    """Those lines that are comments of a program; its statements say what they say when they are carried out."""
-    return {(number, text) for number, text in lines if text.lstrip().startswith(("%", "#", "//"))}
-
-
-def _wrong_together(verdict: check.Verdict) -> set[tuple[int, str]]:
-    """The equations of motion that are wrong by what lines with names of the answer's own say together."""
-    return {
-        (f.line.number, f.line.text)
-        for f in verdict.findings
-        if f.status is check.Status.WRONG and accelerates(f.line.expr)
-    }
+    return replace(answer, others=(), computed=None) if answer.program else program_of(answer) or computed
 
 
 def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:

@@ -1,0 +1,65 @@
+"""What decides between the readings of an answer: which lines are wrong by themselves, and whether a program is meant."""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading import Answer
+from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.errors import ParseError
+
+ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
+"""A line that takes an entry of a state: v = y(3)."""
+
+
+def open_findings(verdict: Verdict) -> list[Finding]:
+    """The findings that are wrong and follow from none."""
+    return [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+
+
+def program_of(answer: Answer) -> Answer | None:
+    """The reading in which an answer is a program that is carried out, if it is one and was not read so."""
+    try:
+        return next((x for other in answer.others[-1:] if (x := other()).program), None)
+    except ParseError:
+        return None
+
+
+def is_misread(verdict: Verdict) -> bool:
+    """Whether a line that only takes an entry of a state, v = y(3), or gives a constant a value, m = 2, is called
+    wrong: it says nothing of the motion."""
+    wrong = [f.line for f in verdict.findings if f.status is Status.WRONG]
+    return any(ENTRY.fullmatch(x.text) or _gives_number(x) for x in wrong)
+
+
+def _gives_number(line: AnsweredLine) -> bool:
+    """Whether a line equates one letter and a number."""
+    letters = line.expr.free_symbols
+    return line.kind == "equation" and len(letters) == 1 and bool(line.expr.diff(*letters).is_number)
+
+
+def computes_right(typed: Verdict, computed: Verdict) -> bool:
+    """Whether a wrong program computes what is right where a line is called wrong as it is typed: a loop adds to T. One
+    that is right as a whole was accepted among the readings, unless a remark in it is wrong."""
+
+    def lines(verdict: Verdict, wrong: bool) -> set[tuple[int, str]]:
+        found = {(f.line.number, f.line.kind) for f in verdict.findings if (f.status is Status.WRONG) == wrong}
+        return {x for x in found if x[1] in ("T", "V", "L", "equation")}
+
+    right = lines(computed, False) - lines(computed, True)
+    kinds = {kind for _, kind in lines(computed, True)}
+    energies = {kind for _, kind in right if kind != "equation" and kind not in kinds}
+    return not computed.right and any(x in right or x[1] in energies for x in lines(typed, True))
+
+
+def of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:
+    """Those lines that are comments of a program; its statements say what they say when they are carried out."""
+    return {(number, text) for number, text in lines if text.lstrip().startswith(("%", "#", "//"))}
+
+
+def wrong_together(verdict: Verdict) -> set[tuple[int, str]]:
+    """The equations of motion that are wrong by what lines with names of the answer's own say together."""
+    return {
+        (f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG and accelerates(f.line.expr)
+    }
