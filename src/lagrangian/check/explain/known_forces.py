@@ -67,10 +67,13 @@ class KnownPart:
 
 def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> dict[int, KnownPart]:
     """What is known in those of some lines that are balances of bodies, by the place of the line."""
-    factors = _factors(truth)
+    none = dict.fromkeys(forces, np.zeros(truth.states.size))
+    bodies = free_bodies(truth)
+    factors, alike = _factors(truth), _alike(truth)
     matches: dict[int, Match] = {}
     for i, x in enumerate(lines):
-        if found := plain_matches(truth, x.expr, forces):
+        found = [m for m in bodies.matches(x.expr, none) if _is_plain(m, _factor(factors, m.scale), alike)]
+        if found:
             matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
     own = {i: bool(forces) and lines[i].expr.has(*forces) for i in matches}
@@ -117,12 +120,9 @@ def _missing(match: Match, elements: Sequence[Element], *, alone: bool) -> list[
     return ["is missing; its moment is ", -moment if moment.could_extract_minus_sign() else moment]
 
 
-def plain_matches(truth: Reference, line: sp.Expr, forces: Collection[sp.Basic]) -> list[Match]:
-    """The balances of bodies of which a line, with ``forces`` of its own, is a multiple in its inertia by a plain
-    factor."""
-    none = dict.fromkeys(forces, np.zeros(truth.states.size))
-    factors, alike = _factors(truth), _alike(truth)
-    return [m for m in free_bodies(truth).matches(line, none) if _is_plain(m, _factor(factors, m.scale), alike)]
+def plain_scale(truth: Reference, values: Array) -> sp.Expr | None:
+    """A plain factor by which a line may be multiplied, from its values for every set of parameters."""
+    return _factor(_factors(truth), values)
 
 
 def _is_plain(match: Match, scale: sp.Expr | None, alike: set[sp.Expr]) -> bool:
