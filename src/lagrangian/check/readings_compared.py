@@ -1,4 +1,4 @@
-"""What decides between the readings of an answer: which lines are wrong by themselves, and whether a program is meant."""
+"""What decides between the readings of an answer: which lines are wrong by themselves, whether a program is meant."""
 
 from __future__ import annotations
 

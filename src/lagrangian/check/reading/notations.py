@@ -118,12 +118,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not LATEX.search(tagless.text):
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
-    said = with_stated_letters(
-        with_variations(tagless, taken, None if latex else names.changes),
-        names.changes,
-        taken,
-        latex=bool(LATEX.search(tagless.text)),
-    )
+    varied = with_variations(tagless, taken, None if latex else names.changes)
+    said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
@@ -136,8 +132,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
-    plain = without_programs(said, names.changes, taken)
-    return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)
+    plain = sentences_apart(on_one_line(without_programs(said, names.changes, taken)))
+    return with_parts_of_energies(plain, lines.model, taken)
 
 
 def _straight(match: re.Match[str]) -> str:
