@@ -5,7 +5,7 @@ Where all that is known in a line is right, only its own forces can be wrong in 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
