@@ -230,6 +230,10 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
         yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
 
 
+SAID = ("_of_body", "_said")
+"""How the names of mistakes end that are wrong definitions."""
+OF_ENERGIES = ("kinetic", "potential", "translation", "rotation", "inertia", "axis", "mass")
+"""How the names of those begin that are of energies and of what stands in them."""
 BODIES = ("particle", "rigid body")
 """Kinds of elements that are called by a name that is a word: the wheel."""
 PLACES = {
@@ -253,8 +257,17 @@ def _called(title: str) -> str:
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
+    if elements and _is_of_balances(mistake, verdict):
+        return (f"It concerns {listed([*map(_called, elements)])}.",)
     concerns = f"; it concerns {listed([*map(_called, elements)])}" if elements else ""
     return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
+
+
+def _is_of_balances(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a place, a velocity or an acceleration is said wrongly where nothing of Lagrange's is stated: no step."""
+    kinds = {f.line.kind for f in verdict.findings}
+    moved = mistake.name.endswith(SAID) and not mistake.name.startswith(OF_ENERGIES)
+    return moved and kinds <= {"definition", "equation", "identity", "statement"}
 
 
 def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
@@ -285,15 +298,19 @@ def _terms(verdict: Verdict, model: Model) -> Iterator[Item]:
         of = _of(f, model) if often[f.line.title] > 1 else ()
         for d in f.differences if not f.follows else ():
             side, said = on_side(f.line, d)
-            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said))
+            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said, verdict))
 
 
-def _source(d: TermDifference) -> tuple[str | Left, ...]:
-    if d.kind == "extra" and not d.origins:
-        return (".",)
+def _source(d: TermDifference, verdict: Verdict) -> tuple[str | Left, ...]:
+    """From which elements a term comes, and in which step, unless the mistake is told of another step of these."""
     if not d.origins:
         return (".",)
     origins = " and ".join(dict.fromkeys(_called(o.element) for o in d.origins))
     steps = sorted({o.step for o in d.origins})
     verb = "It comes from" if d.kind != "extra" else "Such a term comes from"
+    of = {o.element for o in d.origins}
+    concerned = ((m.step, [m.element] if m.element else _concerned(m, verdict)) for m in verdict.mistakes)
+    told = {step for step, elements in concerned if of.intersection(elements)}
+    if told and not told & set(steps):
+        return (f". {verb} {origins}.",)
     return (f". {verb} {origins} in step{'s' if len(steps) > 1 else ''} {' and '.join(map(str, steps))}.",)
