@@ -167,7 +167,7 @@ REDUCED = (
 @pytest.mark.parametrize(
     ("right", "wrong", "said", "term"),
     [
-        ("2*m*h^2*sin", "m*h^2*sin", "should be 2*h^2*m*tan(theta)*theta'^2/cos(theta)^4", "coefficient"),
+        ("2*m*h^2*sin", "m*h^2*sin", "should be 2*h^2*m*sin(theta)*theta'^2/cos(theta)^5", "coefficient"),
         ("F*h/cos(theta)^2", "F*h", "the factor cos(theta)^(-2) is missing", "coefficient"),
         ("tau +", "-tau +", "wrong sign", "sign"),
     ],

@@ -76,8 +76,14 @@ def beside(
     kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
     told = [f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside]
     untrue = [line for line in placed if id(line) not in aside and only_places(truth, line.expr)]
-    told += [f"'{line.text}' is not true: neither of every motion nor of a position at rest." for line in untrue]
+    told += [f"'{_once(line.text)}' is not true: neither of every motion nor of a position at rest." for line in untrue]
     return kept, tuple(text(note) for note in dict.fromkeys(told))
+
+
+def _once(written: str) -> str:
+    """A line without a side that stands there twice in a row, as where a name was read as what it is said to be."""
+    sides = [x.strip() for x in written.split("=")]
+    return " = ".join(x for k, x in enumerate(sides) if k == 0 or x != sides[k - 1]) if len(sides) > 2 else written
 
 
 def _of_motion(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:

@@ -24,6 +24,7 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.advice import with_fitting_advice
 from lagrangian.check.explain.as_it_was_written import with_terms_as_written
+from lagrangian.check.explain.as_they_stand import with_terms_as_they_stand, without_shared_signs
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.derivatives_said import with_terms_of_equations
@@ -115,9 +116,10 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if not verdict.right and hint:
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
-            verdict = with_fitting_advice(truth, said.lines, with_terms_as_written(truth, with_sides(verdict)))
+            verdict = with_terms_as_they_stand(truth, with_terms_as_written(truth, with_sides(verdict)))
+            verdict = with_fitting_advice(truth, said.lines, verdict)
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
-        verdict = said_in_numbers(truth, in_own_names(truth, written, verdict))
+        verdict = without_shared_signs(said_in_numbers(truth, in_own_names(truth, written, verdict)))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -139,7 +139,8 @@ def judge(
         return Finding(line, Status.EQUIVALENT, _in_own(truth, stated_for[-1][0]), coordinate)
     undamped = [_undamped(truth, line, by, lines) for by in stated_for]
     if any(x is not None and zero_everywhere(truth, line.expr - x) for x in undamped):
-        note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
+        apart = any(x.kind == "D" for x in lines)
+        note = text("without the dampers, which stand in ", *((Name("D"),) if apart else ("the equation",)))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     right = undamped[0] if undamped and undamped[0] is not None else right
     if line.kind == "Xi" and i is not None and not any(x.kind in ("V", "L") for x in lines):

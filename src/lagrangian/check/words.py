@@ -232,6 +232,10 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
 
 FORCES_TAKEN = " unknown force"
 """What a note says of unknown forces in balances."""
+SAID = ("_of_body", "_said")
+"""How the names of mistakes end that are wrong definitions."""
+OF_ENERGIES = ("kinetic", "potential", "translation", "rotation", "inertia", "axis", "mass")
+"""How the names of those begin that are of energies and of what stands in them."""
 BODIES = ("particle", "rigid body")
 """Kinds of elements that are called by a name that is a word: the wheel."""
 PLACES = {
@@ -255,16 +259,20 @@ def _called(title: str) -> str:
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
+    if _is_of_balances(mistake, verdict):
+        return (f"It concerns {listed([*map(_called, elements)])}.",) if elements else ()
     concerns = f"; it concerns {listed([*map(_called, elements)])}" if elements else ""
-    if mistake.step == 5 and _is_by_newton(verdict):
-        return (f"{concerns.removeprefix('; it').replace(' concerns', 'It concerns', 1)}.",) if concerns else ()
     return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
 
 
-def _is_by_newton(verdict: Verdict) -> bool:
-    """Whether an answer has balances with forces of its own, and no energy: they belong to no step."""
+def _is_of_balances(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a mistake belongs to no step: one of step 5 in an answer that has balances with forces of its own and no
+    energy, or a place, a velocity or an acceleration that is said wrongly where nothing of Lagrange's is stated."""
     kinds = {f.line.kind for f in verdict.findings}
-    return any(FORCES_TAKEN in str(note) for note in verdict.notes) and kinds.isdisjoint(("T", "V", "L", "Xi", "D"))
+    if mistake.step == 5 and any(FORCES_TAKEN in str(note) for note in verdict.notes):
+        return kinds.isdisjoint(("T", "V", "L", "Xi", "D"))
+    moved = mistake.name.endswith(SAID) and not mistake.name.startswith(OF_ENERGIES)
+    return moved and kinds <= {"definition", "equation", "identity", "statement"}
 
 
 def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
@@ -295,15 +303,19 @@ def _terms(verdict: Verdict, model: Model) -> Iterator[Item]:
         of = _of(f, model) if often[f.line.title] > 1 else ()
         for d in f.differences if not f.follows else ():
             side, said = on_side(f.line, d)
-            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said))
+            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said, verdict))
 
 
-def _source(d: TermDifference) -> tuple[str | Left, ...]:
-    if d.kind == "extra" and not d.origins:
-        return (".",)
+def _source(d: TermDifference, verdict: Verdict) -> tuple[str | Left, ...]:
+    """From which elements a term comes, and in which step, unless the mistake is told of another step of these."""
     if not d.origins:
         return (".",)
     origins = " and ".join(dict.fromkeys(_called(o.element) for o in d.origins))
     steps = sorted({o.step for o in d.origins})
     verb = "It comes from" if d.kind != "extra" else "Such a term comes from"
+    of = {o.element for o in d.origins}
+    concerned = ((m.step, [m.element] if m.element else _concerned(m, verdict)) for m in verdict.mistakes)
+    told = {step for step, elements in concerned if of.intersection(elements)}
+    if told and not told & set(steps):
+        return (f". {verb} {origins}.",)
     return (f". {verb} {origins} in step{'s' if len(steps) > 1 else ''} {' and '.join(map(str, steps))}.",)

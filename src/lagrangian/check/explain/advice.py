@@ -19,6 +19,7 @@ from lagrangian.check.explain.misconceptions import (
     prescribed_sign,
     product_rule,
     reaction_forgotten,
+    reaction_sign,
 )
 from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.check.explain.own_terms import WHY_FORCE
@@ -120,6 +121,8 @@ OF_STEPS: Mapping[str, Text] = {
     WHY_PART[3]: text("A spring pulls by its stiffness times its deflection, a weight pulls downwards."),
 }
 """The same for what is said of every mistake in an energy, or in a force."""
+OPPOSITE = text("Action and reaction are opposite: two bodies are pushed in opposite directions.")
+"""Why both ends of a force have opposite signs, where no motor has a circuit."""
 _LAGRANGE = re.compile(r"T\*|∂|ℒ|Ξ|L |[Ee]nerg|\bV\b|square")
 """The words of Lagrange's equations."""
 _OF_ENERGIES = re.compile(r"kinetic energy|energy of|∂|d/dt")
@@ -150,6 +153,8 @@ def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collecti
     """Why something is wrong, by the kind of the change and by what the term holds; ``right`` are the coordinates
     whose generalized force is right."""
     why = str(mistake.why)
+    if why == str(reaction_sign.WHY) and not truth.model.charges:
+        return OPPOSITE
     if why in GENERAL:
         return _of_term(truth, mistake, balances)
     if (special := _of_efforts(truth, mistake, why, right)) is not None:

@@ -15,6 +15,7 @@ from lagrangian.check.coordinates.renamed import each_formula
 from lagrangian.check.explain.given_said import given_motions
 from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.terms_alone import term_mistake
+from lagrangian.check.reading.shortened import meant
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
@@ -64,7 +65,8 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
     that no formula changes its value.
     """
     wrong = [f.line for f in verdict.findings if not f.status.right]
-    told = _Told(own_names(truth, lines, wrong), _differences(lines), _unused(truth, lines), _in_definitions(lines))
+    defined = _in_definitions(lines)
+    told = _Told(own_names(truth, lines, wrong), _differences(truth, lines), _unused(truth, lines), defined)
     if not told.names and not told.differences and not told.unused:
         return verdict
     named = replace(
@@ -173,10 +175,18 @@ def _rates(name: OwnName) -> Iterator[OwnName]:
         yield OwnName(cast("sp.Expr", sp.Derivative(symbol, (time, count))), value, name.given)
 
 
-def _differences(lines: Sequence[AnsweredLine]) -> frozenset[tuple[str, str]]:
+def _differences(truth: Reference, lines: Sequence[AnsweredLine]) -> frozenset[tuple[str, str]]:
     """The differences of two names that stand in brackets, each in one order only: φ − β in sin(φ − β)."""
-    found = {(key(a), key(b)) for line in lines for a, b in _DIFFERENCE.findall(line.text)}
+    known = [c.name for c in truth.model.coordinates]
+    written = {pair for line in lines for pair in _DIFFERENCE.findall(line.text)}
+    found = {(_in_full(a, known), _in_full(b, known)) for a, b in written}
     return frozenset((a, b) for a, b in found if (b, a) not in found)
+
+
+def _in_full(written: str, names: Sequence[str]) -> str:
+    """The key of a name that is written, of a coordinate that it shortens where it can be one alone: th is theta."""
+    found = meant(written, names)
+    return key(found[0]) if len(found) == 1 else key(written)
 
 
 @dataclass(frozen=True)
@@ -280,8 +290,13 @@ def with_names(expr: sp.Expr, names: Sequence[OwnName]) -> sp.Expr:
     for name in names:
         if expr not in (name.value, -name.value):
             made = _with(expr, name)
-            expr = made if bounded.operations(made) < bounded.operations(expr) else expr
+            expr = made if _length(made) < _length(expr) else expr
     return expr
+
+
+def _length(expr: sp.Expr) -> tuple[int, int]:
+    """How long a formula is: by its operations, then by its sums."""
+    return bounded.operations(expr), len(expr.atoms(sp.Add))
 
 
 def _with(expr: sp.Expr, name: OwnName) -> sp.Expr:
@@ -304,12 +319,20 @@ def _with(expr: sp.Expr, name: OwnName) -> sp.Expr:
 
 
 def _some_terms(found: sp.Add, value: sp.Add, symbol: sp.Expr) -> sp.Expr:
-    terms = set(found.args)
-    for sign in (1, -1):
-        own = {cast("sp.Expr", sign * x) for x in value.args}
-        if own <= terms:
-            return sp.Add(*(terms - own), sign * symbol)
+    """A sum with a name for those of its terms that are its value, or this over letters: l/r for R/r + 1, l = R + r."""
+    terms, first = set(found.args), value.args[0]
+    for x in found.args:
+        times = x / first
+        own = {cast("sp.Expr", times * y) for y in value.args}
+        if own <= terms and (times in (1, -1) or _is_of_letters(times)):
+            return sp.Add(*(terms - own), times * symbol)
     return found
+
+
+def _is_of_letters(factor: sp.Expr) -> bool:
+    """Whether a factor is one over a product of letters."""
+    above, below = sp.fraction(factor)
+    return above in (1, -1) and all(f.as_base_exp()[0].is_Symbol for f in sp.Mul.make_args(below))
 
 
 def _some_factors(found: sp.Expr, value: sp.Mul, symbol: sp.Expr) -> sp.Expr:

@@ -363,8 +363,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     for key, value in (("right", change.right), ("written", change.written)):
         values[key] = value if isinstance(value, tuple) else (_short(value),) if value is not None else ()
     exprs = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
-    if change.kind == "arm" and len(exprs) > 1 and all(x.could_extract_minus_sign() for x in exprs):
-        values["right"], values["written"] = ((-x,) for x in exprs)  # whichever side it stands on
+    if change.kind in ("arm", "omega") and len(exprs) > 1 and all(x.could_extract_minus_sign() for x in exprs):
+        values["right"], values["written"] = ((-x,) for x in exprs)  # whichever side it stands on, or sense it has
     values["apart"] = (rates_apart(*exprs) if len(exprs) > 1 else ()) or (".",)
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):

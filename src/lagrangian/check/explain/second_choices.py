@@ -7,6 +7,7 @@ where only terms are missing, and no mistake was made in T* if the line that sta
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -39,6 +40,8 @@ SAME = frozenset(
     }
 )
 """Names of mistakes in one element of which the first says no more than the second."""
+_MADE_IN = re.compile(r"\bIn the (?P<what>height|position|velocity) of (?P<of>[^,:]{1,80}'[^']{1,60}')")
+"""Where a mistake was made, in words: the height of particle 'bob'."""
 SECOND = " Or: "
 """What stands before a second reason."""
 
@@ -60,12 +63,14 @@ def fitting(verdict: Verdict) -> Verdict:
     wrong = {f.line.kind for f in verdict.findings if f.status is Status.WRONG}
     right = {f.line.kind for f in verdict.findings if f.status.right} - wrong
     signs = any(_family(m) == "sign" for m in verdict.mistakes)
+    notes = _right_notes(verdict)
     others = [
         m
         for m in verdict.alternatives
         if not (missing and _is_of_what_is_there(m))
         and not (signs and _is_of_what_is_there(m) and _family(m) != "sign")
         and not (right.intersection(STATED.get(m.step, ())) and _is_of_energy(m))
+        and not _is_stated(str(m.what), notes)
     ]
     told = (_without_right(m, verdict) for m in verdict.mistakes)
     return replace(verdict, mistakes=tuple(told), alternatives=distinct(others, verdict.mistakes))
@@ -73,12 +78,32 @@ def fitting(verdict: Verdict) -> Verdict:
 
 def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
     """A mistake without a second reason in what a right line states: Or: In the velocity of …"""
-    notes = [str(f.note) for f in verdict.findings if f.line.kind == "definition" and f.status.right and f.note]
+    notes = _right_notes(verdict)
     parts = mistake.what.parts
     place = parts.index(SECOND) if SECOND in parts else len(parts) - 1
     reason = str(parts[place + 1]) if place + 1 < len(parts) else ""
     contradicts = any(reason.startswith(f"In {note}") for note in notes)
     return replace(mistake, what=text(*parts[:place])) if contradicts else mistake
+
+
+def _right_notes(verdict: Verdict) -> list[str]:
+    """What the right definitions of an answer are: the speed of the bob."""
+    return [str(f.note) for f in verdict.findings if f.line.kind == "definition" and f.status.right and f.note]
+
+
+def _is_stated(said: str, notes: Sequence[str]) -> bool:
+    """Whether the position or the velocity in which a mistake is said to be is stated by right lines."""
+    if (found := _MADE_IN.search(said)) is None:
+        return False
+    of = [note.removesuffix(f" of {found['of']}") for note in notes if note.endswith(f" of {found['of']}")]
+    if found["what"] == "velocity":
+        return any(x in ("the speed", "the square of the speed") for x in of) or len(_axes(of, "component")) > 1
+    return "the height" in of or len(_axes(of, "coordinate")) > 1
+
+
+def _axes(notes: Sequence[str], what: str) -> set[str]:
+    """The axes along which lines state a coordinate, or a component of a velocity."""
+    return {x for x in notes if x.split(" ")[2:3] == [what]}
 
 
 def _is_of_energy(mistake: Mistake) -> bool:
@@ -96,6 +121,8 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
 
     x + y in place of y - x, and x + y where it is y - x, is the same, whatever it is called.
     """
+    if str(other.what).startswith(str(mistake.what)):  # without the reason
+        return True
     one, two = _written(mistake), _written(other)
     quoted, others = _quoted(mistake), _quoted(other)
     replaced = len(one) > 1 and len(two) > 1 and mistake.element in (other.element, None)

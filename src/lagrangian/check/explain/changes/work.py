@@ -23,6 +23,9 @@ NUMBER = 0.95
 GIVEN = 1.0
 """What it costs to leave out of a damper's rate what is given in time: less than to leave out that part of its
 force."""
+ONE_FACTOR = 0.5
+"""What it costs more to take another rate in the force of a damper alone where this shows as one factor, which the arm
+may as well lack."""
 
 
 class WorkChanges:
@@ -201,7 +204,8 @@ class WorkChanges:
                     if found:
                         words = (f"the rate of {element.title}",)
                         site = Site(words=words, brief=words, step=6, element=element)
-                        yield _change(kind, cost + (0.0 if both else 0.3), site, found, rate, other)
+                        alone = ONE_FACTOR if not bounded.cancel(rate / other).has(*self.s.v) else 0.3
+                        yield _change(kind, cost + (0.0 if both else alone), site, found, rate, other)
 
     def _other_rates(self, rate: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
         pieces = sp.Add.make_args(rate)
