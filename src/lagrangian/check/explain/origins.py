@@ -32,6 +32,8 @@ from lagrangian.model import time
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
+MOST_TERMS = 300
+"""A part of an equation with more terms is not looked at."""
 LONGEST = 1_500
 """The most operations of an equation with marks."""
 _COMMENT = re.compile(r"[%#].*+")
@@ -147,7 +149,7 @@ def _parts(marks: ValueMarks, expr: sp.Expr) -> list[PartOfValue]:
     for of in marks.values:
         if of.added in used and not {of.added, of.scale} & marks.lost:
             factor, whole = (cast("sp.Expr", bounded.diff(expr, x).xreplace(marks.plain)) for x in (of.added, of.scale))
-            if factor != 0:
+            if factor != 0 and bounded.terms(whole) <= MOST_TERMS:
                 found.append(PartOfValue(of, factor, frozenset(sp.Add.make_args(bounded.expand(whole)))))
     return found
 
