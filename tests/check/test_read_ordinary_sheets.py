@@ -198,3 +198,49 @@ def test_where_a_spring_is_relaxed_is_no_equation_of_every_motion(said: str) -> 
 
 def test_a_sine_written_onto_its_angle_is_no_unit() -> None:
     assert not any("0.00" in x for x in told(f"x = 2l cosα, so nothing\n\n{PLANK}\n{LAMP}"))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "h = lamp drop = a sin α + l cos β",
+        "α = plank drop angle (down +), h = lamp drop = a sin α + l cos β",
+        "h = drop of the lamp = a sin α + l cos β, S1 and S2 = thread forces",
+    ],
+)
+def test_a_side_in_words_stands_beside_other_words(said: str) -> None:
+    energies = "V = -m g h + k α²/2 (+ a constant)"
+    verdict = plank().check(f"{said}\n{energies}\n{PLANK}\n{LAMP}")
+    assert verdict.right
+    assert not verdict.notes
+    assert any(f.line.kind == "V" for f in verdict.findings)
+    assert not right(f"{said}\n{energies.replace('-m g h', 'm g h')}\n{PLANK}\n{LAMP}")
+
+
+def test_an_energy_behind_its_name_has_letters_that_stand_behind_a_comma() -> None:
+    swings = "m a² α'²/2 + m l² β'²/2 + m a l sin(α - β) α' β'"
+    text = f"kinetic energy: 1/2 I α'² + 1/2 m l² β'² + m a l sin(α - β) α' β',  I = J + m a²\n{PLANK}\n{LAMP}"
+    verdict = plank().check(text)
+    assert verdict.right
+    assert any(f.line.kind == "T" for f in verdict.findings), verdict.to_text()
+    assert not right(text.replace("I = J", "I = 2 J"))
+    assert right(f"kinetic energy: {swings} + J α'²/2\n{PLANK}\n{LAMP}")
+
+
+def test_a_component_beside_another_is_no_product_of_names_of_the_system() -> None:
+    sys = System("sledge on springs that carries a hanging mass")
+    z, phi = sys.coordinate("z"), sys.coordinate("phi")
+    M, m, l, k, F = *sys.parameters("M m l k", M=3, m=1, l=0.5, k=80), sys.input("F")
+    sys.particle(M, at=sys.point("A", (0, z)))
+    sys.particle(m, at=sys.point("B", (l * sp.cos(phi), z + l * sp.sin(phi))))
+    sys.gravity()
+    sys.spring(k, deflection=z)
+    sys.generalized_force(z, F)
+    derived = sys.derive()
+    rows = """m (z'' + l φ'' cos φ - l φ'^2 sin φ) = Fz - m g
+m (-l φ'' sin φ - l φ'^2 cos φ) = Fx
+M z'' = F - Fz - M g - k z
+0 = Fz cos φ - Fx sin φ"""
+    assert derived.check(rows, hint=0).right
+    assert not derived.check(rows.replace("F - Fz", "F + Fz"), hint=0).right
+    assert not derived.check(rows.replace("- k z", "+ k z"), hint=0).right

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
@@ -44,6 +45,14 @@ _LABEL = re.compile(
     r"(?P<label>[^\W\d_][\w,+.()'’&/-]{0,24}(?:[ ][\w,+.()'’&/-]{1,24}){0,6}?)"
     r"(?P<gap>[ \t]?:(?=[ \t\w½¼⅐-⅞])|[ ]{2}|[ ]?\t|[ ][–—-](?=[ ]))[ \t]*+"
 )
+_WHOLE_LABEL = re.compile(
+    r"(?:kinetic|potential|elastic and potential)(?:[ -]?co)?[ -]?energy"
+    r"|(?:kinetische|potentielle|potenzielle)[ ]energie|énergie[ ](?:cinétique|potentielle)",
+    re.IGNORECASE,
+)
+"""A label that says whose energy it is of nothing but of the whole."""
+_MEANT = re.compile(r",[ \t]++(?:(?:with|where|mit|wobei)[ \t]++)?(?=[^\W\d]\w{0,24}+[ \t]*+=(?!=))")
+"""What a letter in an energy means, behind it: 1/2 I φ'^2, I = J + m l^2."""
 _ARROW = re.compile(r"(?:-+>|=+>|→|⇒|⟶)[ \t]*+")
 _REMARK = re.compile(r"[ \t]{2}[(;,#]")
 _RATE = re.compile(r"['’′˙\u0307]|\\dot(?![A-Za-z])|(?<=[^\W\d])d(?:ot)?\d?(?:²|\^|\*\*)")
@@ -94,6 +103,8 @@ def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[s
     own = {key(m[1]) for m in _DEFINED.finditer(written.text)}
     latex = _LATEX.search(written.text) is not None
     parts = _Parts(model, lambda x: taken(x) or key(x) in own, own, latex=latex)
+    labels = Counter(m["label"].lower() for line in lines if (m := _LABEL.match(line.group())) is not None)
+    parts.whole = frozenset(x for x, count in labels.items() if count == 1 and _WHOLE_LABEL.fullmatch(x))
     parts.listed = parts.rows_of_parts(line.group() for line in lines)
     named = [edit for line in lines for edit in parts.named(line)]
     return written.edited([*parts.sums(lines), *named])
@@ -118,6 +129,8 @@ class _Parts:
         self.body, self.indent = list[str](), 0
         self.listed = self.more = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
+        self.whole = frozenset[str]()
+        """The labels, in small letters, of an energy of the whole: kinetic energy."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
         """Of each energy, the rows of its list: where each begins, the letter in it, and its name."""
         self.inertias = {b.name: inertia_letters(b) for b in model.bodies}
@@ -167,8 +180,9 @@ class _Parts:
         start, end = label.end(), len(text.rstrip(" \t.;,"))
         for arrow in _ARROW.finditer(text, start):
             start = arrow.end()
-        if (remark := _REMARK.search(text, start)) is not None:
-            end = remark.start()
+        for form in (_REMARK, _MEANT):
+            if (remark := form.search(text, start, end)) is not None:
+                end = remark.start()
         return None if "=" in text[start:end] else _Row(label["label"], start, end)
 
     def _kind(self, label: str, value: str, marked: bool) -> str | None:
@@ -288,6 +302,8 @@ class _Parts:
 
     def _name(self, kind: str, label: str) -> str:
         """The name of an energy of a part, new in the answer unless a line states the same once more."""
+        if label.lower() in self.whole and key(kind) not in self.own and not self.known(kind):
+            return kind
         found = self._bodies(label)
         words = [x for x in _WORD.findall(label) if len(x) > 2 and x.lower() not in _SMALL and not self.known(x)]
         more = [x for x in words if re.match(r"(?:trans|rot)", x, re.IGNORECASE)]

@@ -380,6 +380,8 @@ def _words(lines: Lines, text: str) -> Words:
         long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
         if word.lower() in IF and system.is_product(match[2]):
             continue  # if m1r = m2(l - r)
+        if len(match[2]) > LONGEST_NAME and match[2].isalpha() and text[: match.start()].rstrip(" \t")[-1:] == "=":
+            continue  # y = block drop = l sin θ
         if word.lower() in LINKING or (long and not system.known(word) and not system.is_product(word)):
             own.setdefault(match[2])
     for name in (m[1] for m in _NAMED.finditer(text)):

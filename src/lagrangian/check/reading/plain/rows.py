@@ -30,7 +30,7 @@ from lagrangian.check.reading.plain.ends import (
 )
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
-from lagrangian.check.reading.prose.descriptions import is_left_out, says_nothing
+from lagrangian.check.reading.prose.descriptions import amid_names, is_description, is_left_out, says_nothing
 from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
@@ -213,7 +213,7 @@ def _bare(text: str, words: Words) -> str:
 def _explained(row: AnswerRow, own: AnswerRow, words: Words) -> bool:
     """Whether one side of a row consisted of words, which a note tells: N is the contact force = lambda."""
     empty = row.text.lstrip().startswith("=") and not own.text.lstrip().startswith("=")
-    if empty := empty or ends_in_a_word(row.text, words):
+    if (empty := empty or ends_in_a_word(row.text, words)) and not is_description(own.text, words):
         words.names.notes.setdefault(f"'{' '.join(own.text.split())}' was not judged: one side consists of words.")
     return empty
 
@@ -245,7 +245,7 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
         elif match["column"]:
             if depth <= 0 and _beside(text, match.start(), match.end()):
                 letters[match.end() - 1] = ";"
-        elif match["foreign"] and (words.known(mark) or words.is_product(mark)):
+        elif (match["foreign"] and (words.known(mark) or words.is_product(mark))) or amid_names(text, match, words):
             continue
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end()) or _is_meant(text, match)):
             at = match.start()
@@ -392,6 +392,7 @@ def pieces(row: AnswerRow, separators: str, *, always: bool = False, words: Word
     listed = stated > 1 or (len(parts) > 1 and _OTHER_NAME.fullmatch(parts[1][1]) is not None)
     if listed and parts and words is not None and words.is_name(parts[0][1].strip()):
         del parts[0]  # J0, Ja = A, Jb = B
-    if len(parts) > 1 and not always and stated < sum(bool(part.strip()) for _, part in parts):
-        return [row]
+    explained = len(parts) > 1 and moves(parts[0][1]) and all(NAME_NEXT.match(part) for _, part in parts[1:])
+    if len(parts) > 1 and not always and stated < sum(bool(part.strip()) for _, part in parts) and not explained:
+        return [row]  # but T: ½ I φ'², I = J + m l²
     return [AnswerRow(row.start + at, part) for at, part in parts if part.strip()]

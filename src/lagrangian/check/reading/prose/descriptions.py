@@ -14,7 +14,10 @@ from itertools import pairwise
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, is_common, is_level, is_prose, is_word
 
-_NAMED = re.compile(r"[\s*`$\\]*+(?P<name>[^\W\d]\w{0,23}+)[\s*`$]*+\Z")
+_NAMED = re.compile(
+    r"[\s*`$\\]*+(?P<name>[^\W\d]\w{0,23}+)(?:[\s*`$]*+(?:,|\band\b|\bund\b|&)[\s*`$]*+[^\W\d]\w{0,23}+){0,8}+[\s*`$]*+\Z"
+)
+"""A name, or several: S1 and S2 = rope forces."""
 _FREEDOMS = re.compile(
     r"(?:[\w ]{0,30}=[ \t]*)?\d[ \t]*(?:degrees?[ \t]of[ \t]freedom|dofs?|freiheitsgrade?|ddl)\W*", re.IGNORECASE
 )
@@ -22,7 +25,7 @@ _FREEDOMS = re.compile(
 _SAME = re.compile(r"[\s(]*+(?P<one>[^\W\d]\w{0,23}+)\s*=\s*(?P<other>[^\W\d]\w{0,23}+)[\s)]*+\Z")
 """A name for another: th = theta."""
 _PIECES = re.compile(r"[,;:!?()\[\]{}*`\"\n]+|\.(?=\s|\Z)|(?<!\S)[-–—]+(?!\S)")
-_TOKEN = re.compile(r"[^\W\d_]+(?:[.'’-][^\W\d_]+)*|\w+|\S")
+_TOKEN = re.compile(r"[^\W\d_]++(?:[.'’-][^\W\d_]++)*+(?!\w)|\w+|\S")
 _LISTED = (
     "sum product difference ratio quotient square squared root divided multiplied equal equals opposite derivative "
     "summe produkt differenz quotient quadrat wurzel gleich ableitung geteilt"
@@ -31,6 +34,9 @@ _FORMULAS = ADDING | frozenset(_LISTED.split())
 """Words with which a line may state something, after all."""
 _SHORTEST = 4
 """The fewest letters of a word that stands alone."""
+_CUT = re.compile(r"[,;:\n]|\.(?=\s|\Z)")
+LONGEST_ITEM = 120
+"""The most characters of an item of a list of descriptions on each side of and."""
 LONGEST = 2000
 """The most characters of a line that is looked at."""
 
@@ -55,6 +61,15 @@ def is_description(text: str, words: Words) -> bool:
     if any(_describes(other, words) for _, other in named):
         return True
     return all(_describes(x, words) and not _names_in(x, words) for x in sides)
+
+
+def amid_names(text: str, match: re.Match[str], words: Words) -> bool:
+    """Whether a link stands between names of which words say what they are: N = load, S1 and S2 = rope forces."""
+    if match.group() not in ("and", "und", "et"):
+        return False
+    before = _CUT.split(text[max(0, match.start() - LONGEST_ITEM) : match.start()])[-1]
+    behind = _CUT.split(text[match.end() : match.end() + LONGEST_ITEM])[0]
+    return _NAMED.match(before) is not None and is_description(f"{before} and {behind}", words)
 
 
 def states_nothing(text: str, words: Words) -> bool:

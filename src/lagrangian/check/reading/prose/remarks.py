@@ -73,10 +73,22 @@ _DIRECTION = re.compile(
 """Which direction counts, in words: (drum, + = lowering)."""
 
 
+_COUNTS = re.compile(r"\((?:[^\W\d_]{3,24}[ \t]){1,4}[+−-]\)")
+"""The sign behind what counts so: (unwinding +)."""
+_ADDED = re.compile(
+    r"(?<=[\w)\]²³])[ \t]*+"
+    r"(?:\([ \t]?[+±][ \t]?(?:an?[ \t]|eine[ \t])?(?:const(?:ant)?|[Kk]onst(?:ante)?|constante)\.?\)"
+    r"|\+[ \t]?(?:an?[ \t]|eine[ \t])?(?:constant|[Kk]onst(?:ante)?|constante)\.?)(?=[ \t]*(?:[.,;]|$))",
+    re.MULTILINE,
+)
+"""A constant that is added in words."""
+
+
 def without_legend(written: TracedText) -> TracedText:
     """Return an answer without the parts that only say how rates are spelled, what a name on the line means, which
     direction counts, which multiplier belongs to a constraint, or that something is constant."""
-    written = written.sub(_LEGEND, _blank).sub(_DIRECTION, _blank)
+    written = written.sub(_LEGEND, _blank).sub(_DIRECTION, _blank).sub(_COUNTS, _blank)
+    written = written.sub(_ADDED, lambda m: " + const" if "=" in _line_of(m) else m.group())
     for form in (_BEHIND, _TOLD_BEHIND):
         written = written.sub(form, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
     written = written.sub(_CONSTANT, _blank)

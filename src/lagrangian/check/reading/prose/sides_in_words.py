@@ -50,6 +50,7 @@ def _is_said(side: str, words: Words) -> bool:
     said = _WORD.findall(side)
     long = [x for x in said if len(x) >= _SHORTEST]
     phrase = _SENTENCE.search(side) is not None
+    phrase = phrase or (_PHRASE.search(side) is not None and not any(map(words.is_own, said)))
     own = (
         words.names.known(x)
         or function_of(x) is not None

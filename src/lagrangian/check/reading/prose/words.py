@@ -177,10 +177,16 @@ class Words:
         return _FORCE.fullmatch(word) is not None and bool(self.names.model.constraints)
 
     def _is_component(self, word: str) -> bool:
-        """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
-        if _COMPONENT.fullmatch(word) is None or self.is_name(word[0]):
-            return False
-        return any(key(word[0] + axis) in self._alone for axis in "xyz" if axis != word[1])
+        """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is. Beside
+        an F of the system, that one is no product: Fz, where Fx is and the system has no x."""
+        others = self._other_axes(word)
+        return bool(others) and not (self.is_name(word[0]) and all(map(self.is_name, others)))
+
+    def _other_axes(self, word: str) -> list[str]:
+        """The axes of the other components of a vector of which a word may be one."""
+        if _COMPONENT.fullmatch(word) is None:
+            return []
+        return [axis for axis in "xyz" if axis != word[1] and key(word[0] + axis) in self._alone]
 
     def alone(self, word: str) -> bool:
         """Whether a word occurs in the answer elsewhere than after a number."""
@@ -232,7 +238,7 @@ class Words:
             return [word]
         if word in self._spoken or (len(word) > LONGEST_SHORT and word in _SPELLED):
             return [word]  # lambda is no l a m b d a
-        if self._is_force(word):
+        if self._is_force(word) or not all(map(self.is_name, self._other_axes(word))):
             return [word]  # lam1 is no l a m1
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
