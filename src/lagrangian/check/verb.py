@@ -26,6 +26,7 @@ from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
+from lagrangian.check.not_judged import unjudged_above
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.readings_compared import (
     ENTRY,
@@ -77,6 +78,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     """
     if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
         raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix=Advice(Argument("hint", "2")), code="E406")
+    written = answer if isinstance(answer, str) else ""
     if isinstance(answer, str):
         answer = parse_answer(answer, derivation.model, name=name)
     given = answer if isinstance(answer, Answer) else check.lines_from(answer)
@@ -94,6 +96,8 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
             raise hidden
     else:
         verdict = check.check(derivation, given, hint=hint)
+    if written and isinstance(given, Answer) and not given.program:
+        verdict = replace(verdict, unjudged=unjudged_above(written, verdict, derivation.model))
     return CheckedAnswer(**vars(verdict), model=derivation.model)
 
 

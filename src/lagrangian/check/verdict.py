@@ -211,6 +211,7 @@ class Verdict:
     ``combination[j]`` contains the factors of all right equations in equation j of the answer; ``change`` expresses the
     answer's coordinates in those of the system.
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
+    ``unjudged`` are the numbers of lines with formulas above the first wrong one that have no verdict.
     """
 
     status: Status
@@ -223,6 +224,7 @@ class Verdict:
     hint: int = 3
     sure: bool = True
     motion: bool = False
+    unjudged: tuple[int, ...] = ()
 
     @property
     def right(self) -> bool:

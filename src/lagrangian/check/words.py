@@ -35,6 +35,9 @@ def step_title(step: int) -> str:
 MOST_SAID_FIRST = 2
 """The most terms that are named where it is said that only this line is wrong."""
 
+MOST_SAID_ABOVE = 3
+"""The most lines above a wrong one that are said not to be judged, by number."""
+
 UNSEEN = frozenset({"not_squared", "lost", "lost_in_a_sum", "wrong_number"})
 """Kinds that say nothing new of an equation as second choices: a term is missing there, or has a wrong number."""
 
@@ -62,10 +65,20 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
             "Look at ", first.line.title, *_of(first, model), f", and {first.clash}: they do not fit each other."
         )
     elif verdict.status is Status.WRONG and first is not None and not verdict.motion:
-        yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
+        yield text("Look at ", first.line.title, *_of(first, model), *_as_first(verdict))
     if any(f.follows for f in verdict.findings):
         yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
     yield from verdict.told
+
+
+def _as_first(verdict: Verdict) -> tuple[str, ...]:
+    """That a line is the first that is not right, or only the first of those that were judged."""
+    above = verdict.unjudged
+    if not above:
+        return (": that is the first that is not right.",)
+    which = f"line{'s' * (len(above) > 1)} {listed([*map(str, above)])}" if len(above) <= MOST_SAID_ABOVE else "lines"
+    were = "was" if len(above) == 1 else "were"
+    return (f": of what was judged, that is the first that is not right; {which} above it {were} not judged.",)
 
 
 def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
