@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine
@@ -19,5 +20,11 @@ WRITTEN = 2_000
 
 def hard_to_check(derivation: Derived, lines: Sequence[AnsweredLine], **_: object) -> bool:
     """Whether the system, its equations or the lines of the answer are hard, see `bounded.hard`."""
+    return _is_hard(derivation) or bounded.hard((line.expr for line in lines), LONG)
+
+
+@lru_cache(maxsize=32)
+def _is_hard(derivation: Derived) -> bool:
+    """Whether the system or its equations are hard, for the derivations that were checked most recently."""
     written = sum(bounded.size(side) for e in derivation.equations for side in (e.lhs, e.rhs))
-    return written > WRITTEN or is_hard(derivation.model) or bounded.hard((line.expr for line in lines), LONG)
+    return written > WRITTEN or is_hard(derivation.model)

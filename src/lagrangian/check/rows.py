@@ -192,8 +192,10 @@ def _row(
         return ReferenceRow(Kind.NOTHING)
     if not spanned and not moving:
         return ReferenceRow(Kind.WRONG)
-    factors = _symbolic(truth, expr, form, A) if spanned else None
-    exact = _exact(truth, form, factors) if factors is not None else None
+    factors = proved = _proportional(truth, form, A) if spanned else None
+    if spanned and proved is None:
+        factors = _symbolic(truth, expr, A)
+    exact = True if proved is not None else _exact(truth, form, factors) if factors is not None else None
     if factors is not None and exact:
         return _named(factors, truth)
     if exact is False or not _surely(truth, compiled, j, expr):
@@ -202,7 +204,7 @@ def _row(
         return ReferenceRow(Kind.CONSEQUENCE)
     if factors is not None:
         return _named(factors, truth)
-    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * np.abs(A).max()]
+    used = _used(truth, A)
     if len(used) == 1:
         return ReferenceRow(Kind.SCALED, None, used[0])
     return ReferenceRow(Kind.TURNED)
@@ -259,15 +261,25 @@ def _vanishes(truth: Reference, compiled: CompiledExpressions, j: int, states: S
 # -- factors as expressions -----------------------------------------------------------------------------------------
 
 
-def _symbolic(truth: Reference, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
-    """The factors of one row as expressions, found from their values at every position; None if they are not found."""
-    size = np.abs(A).max()
-    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * size]
-    factors: list[sp.Expr] = [sp.S.Zero] * truth.n
+def _used(truth: Reference, A: Array) -> list[int]:
+    """The right equations that have a part in one row."""
+    return [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * np.abs(A).max()]
+
+
+def _proportional(truth: Reference, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
+    """The factors of one row that is a number times a product of letters times a right one, as normal forms prove."""
+    used = _used(truth, A)
     if len(used) == 1 and (right := truth.forms[used[0]]) is not None and form is not None:
         found = ratio(form, right)
         if found is not None and _exact(truth, form, _only(truth, used[0], found[0])):
             return _only(truth, used[0], found[0])
+    return None
+
+
+def _symbolic(truth: Reference, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
+    """The factors of one row as expressions, found from their values at every position; None if they are not found."""
+    size, used = np.abs(A).max(), _used(truth, A)
+    factors: list[sp.Expr] = [sp.S.Zero] * truth.n
     if np.abs(A - A[0]).max() <= DOUBLE_TOLERANCE * size:
         for i in used:
             number = Fraction(float(A[0, i])).limit_denominator(10_000)

@@ -12,6 +12,7 @@ import os
 import sys
 from typing import Any, TextIO
 
+from lagrangian import bounded
 from lagrangian.check.classes.judge import Judge, Judging
 from lagrangian.errors import Error
 from lagrangian.read import loads
@@ -28,9 +29,10 @@ def main() -> None:
         _say(sink, {"error": str(error)})
         return
     _say(sink, {"ready": True})
-    for line in source:
-        asked = json.loads(line)
-        _say(sink, judge.judge(asked["file"], base64.b64decode(asked["content"])))
+    with bounded.rarely_collected():  # between answers as well
+        for line in source:
+            asked = json.loads(line)
+            _say(sink, judge.judge(asked["file"], base64.b64decode(asked["content"])))
 
 
 def _say(sink: TextIO, data: dict[str, Any]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from typing import cast
 
 import numpy as np
@@ -233,10 +233,16 @@ def _is_place(truth: Reference, line: AnsweredLine) -> bool:
 def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False, turned: bool = False) -> list[Sayable]:
     """The quantities whose value a definition has, as it counts them, along ``turned`` axes if those are meant; with
     ``but``, a constant more does not matter."""
+    return list(_right_quantities(truth, line, but, turned))
+
+
+@lru_cache(maxsize=500)
+def _right_quantities(truth: Reference, line: AnsweredLine, but: bool, turned: bool) -> tuple[Sayable, ...]:
+    """The same, kept: many ask it of the same lines."""
     said = in_names_of(truth, line, accelerating=True)
     trivial = said is None or _is_trivial(said)
     if said is None or (trivial and kinds_of(line.name or "") is None):
-        return []
+        return ()
     every = _quantities(truth, said)
     values = CompiledExpressions([said]).at(truth.states)[0]
     found: list[Sayable] = []
@@ -253,7 +259,7 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False,
                     q if expr is said or q.kind != "speed" else replace(q, words=(f"speed of {q.owner.title}",))
                 )
                 break
-    return [q for q in found if q.kind != "along"] or found
+    return tuple([q for q in found if q.kind != "along"] or found)
 
 
 def _readings(q: Sayable, values: Array, said: sp.Expr) -> Iterator[tuple[Array, sp.Expr]]:

@@ -41,7 +41,8 @@ def senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Exp
 def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
     """The sense in which what is written is counted: that which leaves fewer motions different, or less of them."""
     moving = [x for c in truth.model.coordinates for x in (c.rate, c.symbol) if right.has(x) or said.has(x)]
-    rests = [bounded.expand(said - sign * right) for sign in (-1, 1)]
+    whole, own = bounded.expand(said), bounded.expand(right)  # of many quantities, and of many names: each once
+    rests = [cast("sp.Expr", whole - sign * own) for sign in (-1, 1)]
     back, forth = (sum(rest.has(x) for x in moving) for rest in rests)
     if back != forth:
         return -1 if back < forth else 1
@@ -49,8 +50,8 @@ def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
     several = sum(right.has(c.symbol) or said.has(c.symbol) for c in truth.model.coordinates) > 1
     if several and back != forth:  # of ṡ − r θ̇ for ṡ + r θ̇ the sense of ṡ is that in which it is counted
         return 1 if back else -1
-    values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
-    back, forth = (float(np.abs(values[1] - sign * values[0]).sum()) for sign in (-1, 1))
+    values, theirs = (CompiledExpressions([truth.put(x)]).at(truth.states)[0] for x in (said, right))
+    back, forth = (float(np.abs(values - sign * theirs).sum()) for sign in (-1, 1))
     return -1 if back < forth else 1
 
 

@@ -68,9 +68,9 @@ def of_one(pool: Pool, told: Told, mistake: Mistake) -> Mistake:
     if element is None or mistake.element != element.title:
         return mistake
     same = {element.title: mistake}
-    for other in pool.all:
+    for other in pool.named(told.mistake.name):
         of = other.element
-        if other.name != told.mistake.name or of is None or of.title in same or of.ledger != element.ledger:
+        if of is None or of.title in same or of.ledger != element.ledger:
             continue
         if other.takes(told.times) and pool.key(other, times) == pool.key(told.mistake, times):
             words = in_words(pool.truth, replace(told, mistake=other), None)

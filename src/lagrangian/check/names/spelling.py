@@ -27,6 +27,8 @@ MAX_READINGS = 120
 """The largest number of interpretations of unknown names that are tried."""
 MAX_WRONG_READINGS = 24
 """The same for an answer that is wrong with all of them."""
+PLAIN = frozenset(sp.Rational(a, b) for a in range(5) for b in range(1, 5))
+"""Numbers that stand in many equations without being the value of a parameter."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,7 @@ def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """
     known = {p.symbol for p in truth.model.parameters} - truth.prescribed
     numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational, sp.Float)}
-    plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
-    return not any(bounded.symbols(line.expr) & known for line in lines) and bool(numbers - plain_ones)
+    return not any(bounded.symbols(line.expr) & known for line in lines) and bool(numbers - PLAIN)
 
 
 def _read(written: sp.Basic, meant: sp.Basic) -> Text:

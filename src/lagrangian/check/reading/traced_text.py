@@ -37,8 +37,10 @@ class TracedText:
         at = 0
         for start, end, made in listed:
             text += [self.text[at:start], made]
+            last = max(start, end - 1)
             origins += before[at:start]
-            origins += (before[min(start + i, max(start, end - 1))] for i in range(len(made)))
+            origins += before[start : min(start + len(made), last + 1)]
+            origins += [before[last]] * (start + len(made) - last - 1)
             at = end
         text.append(self.text[at:])
         origins += before[at:]

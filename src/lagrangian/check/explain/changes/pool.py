@@ -134,6 +134,16 @@ class Pool:
         """The place of every possible mistake in the arrays, by its identity."""
         return self.kept("places", lambda: {id(p): k for k, p in enumerate(self.all)})
 
+    def named(self, name: str) -> list[Possible]:
+        """The possible mistakes of a kind, in their order."""
+        return self.kept("named", self._by_name).get(name, [])
+
+    def _by_name(self) -> dict[str, list[Possible]]:
+        found: dict[str, list[Possible]] = {}
+        for possible in self.all:
+            found.setdefault(possible.name, []).append(possible)
+        return found
+
     @property
     def felt(self) -> Any:
         """Whether every possible mistake changes every row, (C, n)."""
