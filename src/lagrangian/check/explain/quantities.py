@@ -314,7 +314,7 @@ def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
         rates = [base for base, exponent in powers if exponent == 2 and base.has(*s.v)]
         for w in rates if len(rates) == 1 else ():
             factor = cast("sp.Expr", square / w**2)
-            words = (f"velocity in {e.title}",)
+            words = (f"rate that is squared in {e.title}",)
             yield Sayable("component", e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
 
 

@@ -7,6 +7,7 @@ where only terms are missing, and no mistake was made in T* if the line that sta
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -39,6 +40,7 @@ SAME = frozenset(
     }
 )
 """Names of mistakes in one element of which the first says no more than the second."""
+_HEIGHT_OF = re.compile(r"In the height of (?P<title>[a-z ]{3,30}'[^']{1,60}')")
 SECOND = " Or: "
 """What stands before a second reason."""
 
@@ -103,6 +105,8 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         return True
     if mistake.name == ANOTHER_FACTOR and mistake.element == other.element:
         return True
+    if other.name == "gravity_forgotten" and (body := _HEIGHT_OF.match(str(mistake.what))) is not None:
+        return f"he weight of {body['title']} " in str(other.what)  # no height was written
     if (mistake.name, other.name) in SAME and mistake.element == other.element:
         return True
     if _family(mistake) != _family(other):
