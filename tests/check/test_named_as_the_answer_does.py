@@ -11,6 +11,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+from sympy import cos, sin
 
 from lagrangian import Derivation, System
 
@@ -73,3 +74,24 @@ def test_words_and_differentials_are_no_products() -> None:
     rows = "m r'' - m r psi'^2 = -b r'\n(J + m r^2) psi'' + 2 m r r' psi' = M - c psi'"
     verdict = dial().check(f"The dial turns freely (with w = const).\n{rows}")
     assert verdict.right and not any("Products" in str(n) for n in verdict.notes), verdict.notes
+
+
+@cache
+def derrick() -> Derivation:
+    """A boom with a load at its end, on a damper."""
+    sys = System("derrick")
+    phi = sys.coordinates("phi")
+    m, l, M, c, g = sys.parameters("m l M c g")
+    sys.rigid_body(m, m * l**2 / 12, at=sys.point("G", (l / 2 * cos(phi), l / 2 * sin(phi))), frame=sys.frame(phi))
+    sys.particle(M, at=sys.point("L", (l * cos(phi), l * sin(phi))), name="load")
+    sys.damper(c, deflection=phi, name="brake")
+    sys.gravity((0, -1), g)
+    return sys.derive()
+
+
+def test_no_height_is_blamed_of_a_weight_that_is_missing() -> None:
+    energies = "T = m l^2 phi'^2/6 + M l^2 phi'^2/2\nV = m g l/2 sin(phi){}\nQ_phi = -c phi'"
+    assert derrick().check(energies.format(" + M g l sin(phi)")).right
+    verdict = derrick().check(energies.format(""))
+    assert str(verdict.mistakes[0].what) == "The weight of particle 'load' is missing in V."
+    assert "height of particle" not in verdict.to_text()

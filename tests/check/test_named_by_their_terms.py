@@ -99,7 +99,10 @@ def test_a_kinetic_energy_with_an_index_is_that_of_derivatives_and_a_wrong_funct
 def test_a_wrong_function_is_told_by_the_term_that_has_it() -> None:
     rows = "m r'' - m r theta'^2 + k r = m a w^2 sin(w t) sin(theta)\n"
     said = first(shaken(), f"{rows}m r^2 theta'' + 2 m r r' theta' = m a w^2 r sin(w t) sin(theta)")
-    assert said.startswith("In the term -a*m*w^2*r*sin(t*w)*cos(theta) of the equation of theta, sin(theta) stands")
+    assert said == (
+        "In line 2, on the right-hand side: in the term a*m*w^2*r*sin(t*w)*sin(theta) of the equation of theta, "
+        "sin(theta) stands in place of cos(theta)."
+    )
 
 
 def test_a_force_along_a_line_has_no_arm_but_a_direction() -> None:

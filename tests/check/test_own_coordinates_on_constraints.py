@@ -47,7 +47,7 @@ def test_the_answer_is_right() -> None:
 @pytest.mark.parametrize(
     ("written", "instead", "said"),
     [
-        ("g l cos(theta)", "g l sin(theta)", "cos(theta)"),
+        ("g l cos(theta)", "g l sin(theta)", "are exchanged in the term g*l*n*sin(theta)"),
         ("= F l cos(beta + theta)/sin(beta)", "= F", "F"),
         ("V = n g l sin(theta)", "V = n g l cos(theta)", "Sine and cosine are exchanged in the weights"),
     ],

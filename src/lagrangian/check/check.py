@@ -116,8 +116,8 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if not verdict.right and hint:
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
-            verdict = with_terms_as_they_stand(truth, with_terms_as_written(truth, with_sides(verdict)))
-            verdict = with_fitting_advice(truth, said.lines, verdict)
+            verdict = with_sides(with_terms_as_written(truth, verdict))
+            verdict = with_fitting_advice(truth, said.lines, with_terms_as_they_stand(truth, verdict))
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
         verdict = without_shared_signs(said_in_numbers(truth, in_own_names(truth, written, verdict)))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))

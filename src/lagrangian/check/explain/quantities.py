@@ -315,7 +315,11 @@ def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
         for w in rates if len(rates) == 1 else ():
             factor = cast("sp.Expr", square / w**2)
             turns = _turns(s, w)
-            words = (f"angular velocity of {e.title.removeprefix('kinetic ')}" if turns else f"velocity in {e.title}",)
+            words = (
+                f"angular velocity of {e.title.removeprefix('kinetic ')}"
+                if turns
+                else f"rate that is squared in {e.title}",
+            )
             kind = "turning" if turns else "component"
             yield Sayable(kind, e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
 
