@@ -78,7 +78,7 @@ def _is_kinetic(value: Any) -> bool:
 
 
 def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
-    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None if it is not one.
+    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, Q_th, τ₁; None if it is not one.
 
     ``named``: the answer gives forces the ends of coordinates' names, so that Q_1 beside Q_m is that of phi_1.
     """
@@ -89,7 +89,11 @@ def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
         return None  # it means a torque
-    return _coordinate(match["index"], model, named=named)
+    if (found := _coordinate(match["index"], model, named=named)) is not None or match["letter"] == "tau":
+        return found
+    short = key(match["index"])
+    begun = [c.name for c in model.coordinates if len(short) > 1 and key(c.name).startswith(short)]
+    return begun[0] if len(begun) == 1 else None
 
 
 def names_forces(names: Iterable[str], model: Model) -> bool:
