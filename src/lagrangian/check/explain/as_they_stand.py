@@ -33,7 +33,7 @@ LONGEST = 120
 TOLD = (THE_TERM, THE_TERM.lower(), " should be ", " stands where ")
 """How the words end after which a term is told."""
 SIGN = 1
-"""How many more operations a term may have as it is written."""
+"""How many more operations a term may have with the sums of what is written."""
 
 
 def with_terms_as_they_stand(truth: Reference, verdict: Verdict) -> Verdict:
@@ -84,9 +84,10 @@ def _form(truth: Reference, term: sp.Expr, every: Sequence[TermDifference]) -> s
     """A term as it is written where it differs, or as it should be there; as it is if it is none of these."""
     if term.is_Atom or bounded.operations(term) > LONGEST:
         return term
-    own = [x for d in every for x in ((d.written, d.term) if d.kind != "missing" else (d.term,)) if x != 0]
-    letters = truth.expand(term).free_symbols
-    for x in (x for x in own if x != term and bounded.operations(x) <= bounded.operations(term) + SIGN):
+    letters, longest = truth.expand(term).free_symbols, bounded.operations(term)
+    own = [(d.written, SIGN) for d in every if d.written != 0]
+    own += [(d.term, SIGN if d.term.atoms(sp.Add) <= d.written.atoms(sp.Add) else -1) for d in every]
+    for x in (x for x, more in own if x != term and bounded.operations(x) <= longest + more):
         if truth.expand(x).free_symbols == letters and zero_everywhere(truth, truth.expand(cast("sp.Expr", x - term))):
             return x
     return term
