@@ -168,12 +168,16 @@ def test_words_that_state_no_mathematics_cause_no_notice(said: str) -> None:
     "said",
     [
         "E = plank energy, W = m g a plus the work of the spring",
+        "inertia force = spring force",
+        "velocity of the lamp = velocity of the plank's end + swing",
+        "α = twice the plank angle",
         "J is the inertia m a^2/3 times three",
     ],
 )
-def test_mathematics_in_words_is_told_once(said: str) -> None:
+def test_mathematics_in_words_is_told_and_no_line_twice(said: str) -> None:
     notes = told(f"{said}\n\n{PLANK}\n{LAMP}")
-    assert len(notes) == 1, notes
+    assert notes
+    assert sum(x.startswith("Line 1 ") for x in notes) <= 1
 
 
 @pytest.mark.parametrize(

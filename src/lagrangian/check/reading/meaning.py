@@ -281,7 +281,9 @@ class Meaning(ExpressionReader):
                     self.fail("a matrix can be divided only by a number that is not 0", child)
                 value = 1 / value
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
+            listed = False
             if both and total.shape == value.shape and value.shape[1] == 1:
+                listed = self.source.text.startswith("*", start_of(operator))
                 if value.shape[0] in (2, 3) and self.source.text.startswith(("×", "\\times"), start_of(operator)):
                     total = crossed(total, value)
                     self._spend(total, child)
@@ -295,7 +297,8 @@ class Meaning(ExpressionReader):
             if both and total.shape[0] * value.shape[1] * value.shape[0] > 20 * MAX_ENTRIES:
                 self.fail("the matrices are too large to multiply", child, code="E703")
             total = total * value
-            total = total[0] if isinstance(total, MatrixBase) and len(total) == 1 else total  # a dot product
+            number = isinstance(total, MatrixBase) and len(total) == 1 and not listed  # a dot product
+            total = total[0] if number else total
             self._spend(total, child)
         return total
 

@@ -3,7 +3,7 @@
 θ = bar angle, pin at the origin              a name and what it means
 r = distance hinge - slider                   a hyphen between words is no minus
 θ (drum), x (load, down)                      names and words
-left side = right side                        words on both sides
+left side = right side                        what an equation is
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, is_common, is_level, is_prose, is_word
+from lagrangian.read.letters import SPELLED, key
 
 _NAMED = re.compile(
     r"[\s*`$\\]*+(?P<name>[^\W\d]\w{0,23}+)(?:[\s*`$]*+(?:,|\band\b|\bund\b|&)[\s*`$]*+[^\W\d]\w{0,23}+){0,8}+[\s*`$]*+\Z"
@@ -24,6 +25,11 @@ _FREEDOMS = re.compile(
 """How many freedoms there are: f = 2 degrees of freedom."""
 _SAME = re.compile(r"[\s(]*+(?P<one>[^\W\d]\w{0,23}+)\s*=\s*(?P<other>[^\W\d]\w{0,23}+)[\s)]*+\Z")
 """A name for another: th = theta."""
+_LEFT_OR_RIGHT = r"(?:the[ ])?(?:left|right|linke|rechte|lhs|rhs)(?:[ -]?hand)?(?:[ -]?(?:sides?|seiten?))?"
+_BOTH = re.compile(
+    rf"(?:[^\W\d_]{{2,20}}[ :,.]{{1,2}}){{0,6}}{_LEFT_OR_RIGHT}[ ]?=[ ]?{_LEFT_OR_RIGHT}[ .]*", re.IGNORECASE
+)
+"""What an equation is: left side = right side."""
 _PIECES = re.compile(r"[,;:!?()\[\]{}*`\"\n]+|\.(?=\s|\Z)|(?<!\S)[-–—]+(?!\S)")
 _TOKEN = re.compile(r"[^\W\d_]++(?:[.'’-][^\W\d_]++)*+(?!\w)|\w+|\S")
 _LISTED = (
@@ -50,17 +56,15 @@ def is_left_out(text: str, own: str, words: Words) -> bool:
 
 
 def is_description(text: str, words: Words) -> bool:
-    """Whether a statement says in words alone what a name means, or has words on both sides."""
+    """Whether a statement says in words alone what a name means, or that the sides are equal."""
     sides = text.split("=")
-    if _FREEDOMS.fullmatch(text.strip()[:LONGEST]):
+    if any(form.fullmatch(text.strip()[:LONGEST]) for form in (_FREEDOMS, _BOTH)):
         return True
     if len(sides) != 2 or len(text) > LONGEST:
         return False
     named = [(m["name"], other) for x, other in (sides, sides[::-1]) if (m := _NAMED.match(x)) is not None]
-    named = [(name, other) for name, other in named if function_of(name) is None]
-    if any(_describes(other, words) for _, other in named):
-        return True
-    return all(_describes(x, words) and not _names_in(x, words) for x in sides)
+    named = [(name, other) for name, other in named if function_of(name) is None and _may_be_name(name, words)]
+    return any(_describes(other, words) for _, other in named)
 
 
 def amid_names(text: str, match: re.Match[str], words: Words) -> bool:
@@ -80,6 +84,12 @@ def states_nothing(text: str, words: Words) -> bool:
     pieces = [x for x in _PIECES.split(text) if x.strip()]
     spoken = any(is_spoken(x, words) for x in re.findall(r"[^\W\d_]+", text))
     return spoken and all(is_description(x, words) or _says(x, words) or _renames(x, words) for x in pieces)
+
+
+def _may_be_name(name: str, words: Words) -> bool:
+    """Whether this is a name, and no word in front of an equals sign: inertia force = spring force."""
+    long = len(name) > 2 and name.isalpha() and key(name) not in SPELLED.values()
+    return not long or words.names.known(name)
 
 
 def _renames(piece: str, words: Words) -> bool:
@@ -110,10 +120,6 @@ def _describes(said: str, words: Words) -> bool:
     if len(listed) == 1:
         return len(listed[0]) >= _SHORTEST and words.count(listed[0]) == 1 and not words.is_used(listed[0])
     return _says(_PIECES.sub(" ", said), words)
-
-
-def _names_in(said: str, words: Words) -> bool:
-    return any(not is_spoken(x, words) and words.known(x) for x in _TOKEN.findall(said))
 
 
 def is_spoken(word: str, words: Words) -> bool:

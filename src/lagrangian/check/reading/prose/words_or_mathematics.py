@@ -175,7 +175,7 @@ def _without_comments(text: str, words: Words) -> str:
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
         inside = text[start + 1 : end]
         if (behind and (_says(inside, words) or _speaks(inside, words))) or _reasons(text, start, words):
-            if re.search(r"[\d=+*/^'’′²³×·]", inside) or any(map(words.is_name, _WORD.findall(inside))):
+            if re.search(r"[\d=+*/^'’′²³×·()]", inside) or any(map(words.is_name, _WORD.findall(inside))):
                 told = " ".join(text[start : end + 1].split())
                 words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)
