@@ -57,6 +57,8 @@ def with_balances_apart(truth: Reference, lines: Sequence[AnsweredLine], verdict
     fitting = [x for x in rows if place_of(x) in blamed and own[id(x)] is True]
     if fitting and any(m.name == NAME for m in verdict.mistakes):
         return _all_doubtful([x for x in rows if x in (*linked, *fitting)], forces, verdict)
+    if blamed & set(map(place_of, linked)) and any(m.name == NAME for m in verdict.mistakes):
+        return verdict  # that line is told
     told = set(map(place_of, linked)) & held
     findings = tuple(f for f in verdict.findings if place_of(f.line) not in told)
     numbers = listed([str(k) for k in sorted({x.number for x in linked})])
@@ -83,13 +85,16 @@ class _Fits:
         self.truth = truth
         self.bodies = free_bodies(truth)
         self.none = dict.fromkeys(forces, np.zeros(truth.states.size))
+        elements = dict.fromkeys(e for b in self.bodies.balances for e in b.shared)
+        self.shared = set[sp.Basic]().union(*(_letters(truth, e) for e in elements))
         self.letters = set[sp.Basic]().union(*(bounded.letters(x.expr) for x in rows)) - {time}
 
     def of(self, line: AnsweredLine) -> bool | None:
-        """Whether a line is the balance of some bodies; None if none of these has its accelerations."""
+        """Whether a line is the balance of some bodies; None if none of these has its accelerations, or if it is not
+        known on which of them a force acts."""
         if any(map(self._is_right, plain_matches(self.truth, line.expr, self.none.keys()))):
             return True
-        return False if self._moved(line) else None
+        return False if self._moved(line) and not self.shared & bounded.letters(line.expr) else None
 
     def _moved(self, line: AnsweredLine) -> bool:
         """Whether some bodies have the accelerations of a line."""
