@@ -23,6 +23,7 @@ from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
+from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
@@ -213,7 +214,7 @@ def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check
     if answer.program or not answer.unknown:
         return verdict
     truth = truth_of(derivation)
-    return with_balances_apart(truth, filled(truth, check.lines_of(answer)), verdict)
+    return with_balances_apart(truth, filled(truth, with_accelerations(check.lines_of(answer))), verdict)
 
 
 def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
@@ -253,13 +254,15 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
     def read(numbers: frozenset[int]) -> tuple[Sequence[AnsweredLine], dict[str, sp.Expr]]:
         assert answer.read_without is not None
         found = answer.read_without(numbers)
-        return check.lines_of(found), {u.name: u.symbol for u in found.unknown}
+        return with_accelerations(check.lines_of(found)), {u.name: u.symbol for u in found.unknown}
 
     def judge(others: Sequence[AnsweredLine]) -> check.Verdict:
         return check.check(derivation, others, hint=verdict.hint)
 
     truth = truth_of(derivation)
     lines = with_auxiliary(truth, check.lines_of(answer))
+    if not any(f.line.kind == "definition" and f.status is check.Status.WRONG for f in verdict.findings):
+        lines = with_accelerations(lines)
     left_out = any(all(x.text != y.text for y in decides.lines) for x in lines if x.kind == "equation")
     if left_out or (decides.together and not derivation.multipliers):
         verdict = with_wrong_balance(truth, filled(truth, lines), verdict, judge=judge)
@@ -329,8 +332,11 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     fewer = needed(lines, names, max(free, 1))
     if fewer is not None and fewer.together:
         return [replace(fewer, notes=(*told, *fewer.notes))]
-    more = [] if fewer is None else [replace(fewer, notes=(*told, *fewer.notes))]
-    return [Needed(lines, told), *more]
+    put = with_accelerations(lines)
+    if fewer is None:
+        return [Needed(put, told)]
+    whole = [Needed(lines, told)] if put == tuple(lines) else [Needed(put, told), Needed(lines, told)]
+    return [*whole, replace(fewer, notes=(*told, *fewer.notes))]
 
 
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:

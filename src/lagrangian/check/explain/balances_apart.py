@@ -61,6 +61,8 @@ def with_balances_apart(truth: Reference, lines: Sequence[AnsweredLine], verdict
     fitting = [x for x in rows if place_of(x) in blamed and own[id(x)] is True]
     if fitting and any(m.name == NAME for m in verdict.mistakes):
         return _all_doubtful([x for x in rows if x in (*linked, *fitting)], forces, verdict)
+    if blamed & set(map(place_of, linked)) and any(m.name == NAME for m in verdict.mistakes):
+        return verdict  # that line is told
     told = set(map(place_of, unseen)) & held
     findings = tuple(f for f in verdict.findings if place_of(f.line) not in told)
     numbers = listed([str(k) for k in sorted({x.number for x in unseen})])

@@ -86,7 +86,7 @@ def with_wrong_balance(
     parts = known_parts(truth, balances.lines, balances.forces)
     solved = _one_blamed(on, balances, later, parts, right_laws(truth, lines))
     if solved is None:
-        notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
+        notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
         beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
         return _without_invented(balances, parts, verdict if beside is None else beside)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
@@ -107,7 +107,7 @@ def with_wrong_balance(
     plain &= theirs or k is None or k in parts or on is not truth
     if verdict.mistakes and roots == {place_of(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
-    notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
+    notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
     findings = marked(verdict.findings, right, [blamed], follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
     if solved.term is None and solved.known is not None and solved.known.said is not None:
@@ -362,10 +362,12 @@ def _read(forces: Sequence[sp.Basic]) -> Text:
     return text(f"{names} {read} and eliminated.")
 
 
-def _is_of(note: Text, forces: Sequence[sp.Basic]) -> bool:
-    """Whether a note is about forces that were read otherwise, or about mistakes that are told no more."""
+def _is_of(note: Text, balances: Balances) -> bool:
+    """Whether a note is about forces that were read otherwise, about a balance that was compared without them, or about
+    mistakes that are told no more."""
     said = str(note)
-    return said.endswith(LEFT_OVER) or any(f"'{plain(x)}'" in said for x in forces)
+    untrue = any(said.startswith(f"'{x.text}' is not true") for x in balances.lines)
+    return untrue or said.endswith(LEFT_OVER) or any(f"'{plain(x)}'" in said for x in balances.forces)
 
 
 def _mistake(blamed: Finding, why: Text) -> Mistake:

@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.lines import filled, lines_of
+from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import without_constants
 from lagrangian.check.names.results import is_factor_of_forces
 from lagrangian.check.reading import Answer, Unknown
@@ -49,11 +50,12 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     """
     if verdict.status is not Status.WRONG or not answer.unknown:
         return ()
-    lines = without_constants(lines_of(answer), [u.symbol for u in answer.unknown])
+    lines = without_constants(with_accelerations(lines_of(answer)), [u.symbol for u in answer.unknown])
     given = {key(d.symbol.name) for d in derivation.definitions}
     asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given]
     moving = _moving(derivation.model, lines, answer)
     asked = [u for u in asked if u not in moving and not _is_known(u, derivation.model, lines)]
+    asked = [u for u in asked if any(x.expr.has(u.symbol) for x in lines)]
     asked = [u for u in asked if not _is_gravity(u, derivation.model)]
     asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]

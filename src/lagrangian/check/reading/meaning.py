@@ -76,11 +76,8 @@ class Meaning(ExpressionReader):
         if order and (given := self.names.rates.get((key(base), order))) is not None:
             self._spend(given, token)
             return given
-        before = key(base) in self.names.unknown
         _, value, dots = self._meaning(token)
-        if order and (given := self.names.rates.get((key(base), order))) is not None and (self.energy or order > 1):
-            if not before:
-                self.names.unknown.pop(key(base), None)  # m a'' above a'' = …
+        if order and self.energy and (given := self.names.rates.get((key(base), order))) is not None:
             self._spend(given, token)
             return given
         order = dots + len(primes or "")  # ydd is y'', which may be a column
