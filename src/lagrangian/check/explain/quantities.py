@@ -321,7 +321,7 @@ def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
                 else f"rate that is squared in {e.title}",
             )
             kind = "turning" if turns else "component"
-            yield Sayable(kind, e, (words,), w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
+            yield Sayable(kind, e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
 
 
 def _turns(s: Ingredients, w: sp.Expr) -> bool:
