@@ -248,3 +248,13 @@ M z'' = F - Fz - M g - k z
     assert derived.check(rows, hint=0).right
     assert not derived.check(rows.replace("F - Fz", "F + Fz"), hint=0).right
     assert not derived.check(rows.replace("- k z", "+ k z"), hint=0).right
+
+
+def test_a_name_behind_words_is_given_a_value() -> None:
+    rows = "x1' = x3\nx2' = x4\nm l x4' + m a sin(x1 - x2) x3' + m a cos(x1 - x2) x3^2 = -m g sin x2\n"
+    rows += "(J + m a^2) x3' + m a l sin(x1 - x2) x4' - m a l cos(x1 - x2) x4^2 - m g a cos x1 = τ - k x1"
+    said = "As a first-order system with x1 = α, x2 = β, x3 = α', x4 = β':"
+    verdict = plank().check(f"{PLANK}\n{LAMP}\n\n{said}\n{rows}")
+    assert verdict.right, verdict.to_text()
+    assert not right(f"{PLANK}\n{LAMP}\n\n{said}\n{rows.replace('- m g a', '+ m g a')}")
+    assert not right(f"{PLANK}\n{LAMP}\n\n{said.replace('x1 = α, x2 = β', 'x1 = β, x2 = α')}\n{rows}")

@@ -62,6 +62,9 @@ def is_description(text: str, words: Words) -> bool:
         return True
     if len(sides) != 2 or len(text) > LONGEST:
         return False
+    last = re.search(r"(\w{1,30})[\s*`$]{0,9}\Z", sides[0])
+    if last is not None and _NAMED.match(sides[0]) is None and not is_spoken(last[1], words):
+        return False  # so with x1 = φ
     named = [(m["name"], other) for x, other in (sides, sides[::-1]) if (m := _NAMED.match(x)) is not None]
     named = [(name, other) for name, other in named if function_of(name) is None and _may_be_name(name, words)]
     return any(_describes(other, words) for _, other in named)
@@ -119,6 +122,8 @@ def _describes(said: str, words: Words) -> bool:
         return False
     if len(listed) == 1:
         return len(listed[0]) >= _SHORTEST and words.count(listed[0]) == 1 and not words.is_used(listed[0])
+    if not (is_spoken(listed[-1], words) or listed[-1].isdigit() or listed[-2].lower() in LINKING):
+        return False  # As a system with x1 = φ, x = stretch s
     return _says(_PIECES.sub(" ", said), words)
 
 
