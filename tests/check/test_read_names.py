@@ -74,7 +74,7 @@ def test_a_force_that_is_used_is_a_definition_where_enough_equations_remain() ->
 
 @pytest.mark.parametrize(("force", "right"), [("tau", True), ("-tau", False), ("2*tau", False)])
 def test_a_generalized_force_may_have_a_shortened_coordinate(force: str, right: bool) -> None:
-    verdict = derivation("lecture-1").check(f"Q_th = {force}\n{LEVER} = {force}")
+    verdict = derivation("lecture-1").check(f"Xi_th = {force}\n{LEVER} = {force}")
     assert verdict.right is right
     assert [f.status.right for f in verdict.findings if f.line.kind == "Xi"] == [right]
 

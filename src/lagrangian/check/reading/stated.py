@@ -78,7 +78,7 @@ def _is_kinetic(value: Any) -> bool:
 
 
 def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
-    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, Q_th, τ₁; None if it is not one.
+    """Return the coordinate whose generalized force a name is: Xi_x1, Xi_th, Ξ₁, Q_theta, τ₁; None if it is not one.
 
     ``named``: the answer gives forces the ends of coordinates' names, so that Q_1 beside Q_m is that of phi_1.
     """
@@ -89,8 +89,8 @@ def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
         return None  # it means a torque
-    if (found := _coordinate(match["index"], model, named=named)) is not None or match["letter"] == "tau":
-        return found
+    if (found := _coordinate(match["index"], model, named=named)) is not None or match["letter"] != "Xi":
+        return found  # Q_th may be what one element adds
     short = key(match["index"])
     begun = [c.name for c in model.coordinates if len(short) > 1 and key(c.name).startswith(short)]
     return begun[0] if len(begun) == 1 else None
