@@ -128,7 +128,7 @@ ANSWERS = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @size.also_in_full
 @pytest.mark.parametrize("text", ANSWERS.values(), ids=ANSWERS)
 def test_an_answer_is_read_or_refused(text: str) -> None:

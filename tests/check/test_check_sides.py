@@ -87,6 +87,7 @@ def test_what_agrees_at_some_states_is_wrong(spring: str, answer: str) -> None:
     assert not derived(spring).check(answer, hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spring", SPRINGS)
 def test_a_wrong_answer_is_explained_where_some_mistakes_divide_by_zero(spring: str) -> None:
     verdict = derived(spring).check(POLAR.format(r="r").replace("2*r'*theta'", "r'*theta'"))

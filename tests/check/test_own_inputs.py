@@ -71,6 +71,7 @@ def test_the_value_of_an_input_stands_beside_equations_with_a_multiplier() -> No
 ROD = "m_b*x'' = 2*lambda*x\nm_b*y'' = 2*lambda*y - m_b*g\nx^2 + y^2 = l^2\n"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("energies", ["", "T = m_b*(x'^2 + y'^2)/2\nV = m_b*g*y\n"])
 def test_a_parameter_beside_multipliers_may_have_another_name(energies: str) -> None:
     rod, sheet = derivation("rod-pendulum"), energies + ROD
