@@ -18,6 +18,7 @@ from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.layout import with_open_text
@@ -103,6 +104,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
         paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
+        session = without_glosses_of_rates(session, names.changes)
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     relaxed = without_relaxed(without_legend(without_references(indexed)), names.changes, taken, names.notes)
     referred = without_unit_checks(relaxed, taken)

@@ -38,6 +38,10 @@ _REASON = re.compile(
 _EQUAL = re.compile(r"=(?![=>])")
 _BEHIND = re.compile(r"[ \t]*(?:[.,;:!)]|\n|\Z)")
 """What stands behind a bracket that is no factor."""
+_GAP = re.compile(r"(?<=\S)[ ]{2,}\Z|\t[ \t]*\Z")
+_LINE_END = re.compile(r"[ \t]*[.,;]?[ \t]*(?:\n|\Z)")
+_FIRST_WORD = re.compile(rf"[ \t]*({_LETTER}{{5,24}})(?![\w'’′(\[])")
+"""A word with which a remark in brackets begins; names of so many letters are rare."""
 _ONE = rf"{_LETTER}+(?:['’-]{_LETTER}+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
@@ -174,12 +178,24 @@ def _without_comments(text: str, words: Words) -> str:
     for start, end in _apart(text):
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
         inside = text[start + 1 : end]
-        if (behind and (_says(inside, words) or _speaks(inside, words))) or _reasons(text, start, words):
+        said = behind and (_says(inside, words) or _speaks(inside, words) or _is_far(text, start, end, words))
+        if said or _reasons(text, start, words):
             if re.search(r"[\d=+*/^'’′²³×·()]", inside) or any(map(words.is_name, _WORD.findall(inside))):
                 told = " ".join(text[start : end + 1].split())
                 words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)
     return text
+
+
+def _is_far(text: str, start: int, end: int, words: Words) -> bool:
+    """Whether brackets behind a gap at the end of a line begin with a word, as no factor does that has a meaning:
+    D = J + m x²   (determinant / m)."""
+    if _GAP.search(text, max(0, start - 3), start) is None or _LINE_END.match(text, end + 1) is None:
+        return False
+    first = _FIRST_WORD.match(text, start + 1)
+    if first is None or first[1].lower() in ADDING or moves(text[start:end]) or function_of(first[1]) is not None:
+        return False
+    return words.count(first[1]) == 1 and not words.known(first[1]) and not words.is_product(first[1])
 
 
 def _reasons(text: str, start: int, words: Words) -> bool:
