@@ -259,3 +259,25 @@ def test_advice_on_resistances_and_whole_forces(right: str, wrong: str, said: st
     assert cart().check(CART).right
     told = words(cart(), CART.replace(right, wrong))
     assert said in told and advice in told, told
+
+
+@cache
+def shutters() -> lg.Derivation:
+    """A slide that carries two shutters, which turn alike, each in a hinge with friction."""
+    s = lg.System("slide and two shutters")
+    x, w = s.coordinates("x w")
+    M, J, k, d = s.parameters("M J k d")
+    s.kinetic(M * x.diff() ** 2 / 2 + 2 * J * w.diff() ** 2 / 2)
+    s.spring(k, deflection=x, name="buffer")
+    s.damper(d, deflection=w, name="left hinge")
+    s.damper(d, deflection=w, name="right hinge")
+    s.force(s.input("F"), deflection=x, name="drive")
+    return s.derive()
+
+
+@pytest.mark.parametrize(("above", "advice"), [("Q_w = -2 d w'\n", "stands in the equation as it is"), ("", "")])
+def test_half_of_a_friction_is_of_step_6_and_of_no_derivative(above: str, advice: str) -> None:
+    energies = "T = M/2 x'^2 + J w'^2\nV = k x^2/2\nQ_x = F\n"
+    told = words(shutters(), f"{energies}{above}M x'' + k x = F\n2 J w'' = -d w'")
+    assert "Coriolis" not in told and "d/dt of a product" not in told and "step 5" not in told, told
+    assert "step 6" in told and advice in told, told

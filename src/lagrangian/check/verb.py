@@ -18,6 +18,7 @@ from lagrangian.check import AnsweredLine
 from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
+from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
@@ -268,7 +269,8 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
         verdict = with_wrong_balance(truth, filled(truth, lines), verdict, judge=judge)
     if answer.read_without is None:
         return verdict
-    return with_forces_of_below(truth, lines, read, verdict, judge)
+    verdict = with_forces_of_below(truth, lines, read, verdict, judge)
+    return with_wrong_cut_force(truth, lines, read, verdict, judge)
 
 
 def _with_names(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:

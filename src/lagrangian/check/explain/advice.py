@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.misconceptions import (
     effort_term_forgotten,
@@ -61,6 +62,11 @@ OF_PLACES = text(
 WHOLE_FORCE = text(
     "In which direction does the force act, and in which does its point move? Where both agree, it counts whole."
 )
+OF_RESISTANCE = text(
+    "Each damper and each friction counts once: how many act along this coordinate, and how fast does each one's "
+    "deflection grow with it?"
+)
+AS_ABOVE = text("The generalized force is right: it stands in the equation as it is, with all its factors.")
 OTHER_SIDE = text("The generalized force is right: what is moved to the other side of an equation changes its sign.")
 WHOLE_VELOCITY = text(
     "It feels the whole velocity of the point on which it acts, against what it rubs on: what carries the body counts."
@@ -133,7 +139,8 @@ def with_fitting_advice(truth: Reference, lines: Sequence[AnsweredLine], verdict
     that speak of energies which nobody wrote."""
     balances = without_lagrange(lines)
     right = {f.line.name for f in verdict.findings if f.line.kind == "Xi" and f.status.right}
-    told = tuple(replace(m, why=_fitting(truth, m, balances, right)) for m in verdict.mistakes)
+    dampers = [_as_of_damper(truth, m, right) for m in verdict.mistakes]
+    told = tuple(replace(m, why=_fitting(truth, m, balances, right)) for m in dampers)
     others = [m for m in verdict.alternatives if not (balances and _is_of_lagrange(m))]
     return replace(verdict, mistakes=told, alternatives=tuple(others))
 
@@ -147,6 +154,19 @@ def without_lagrange(lines: Sequence[AnsweredLine]) -> bool:
 def _is_of_lagrange(mistake: Mistake) -> bool:
     """Whether a mistake can only be made in an energy, or in a derivative of one."""
     return mistake.name == "inner_derivative" or _OF_ENERGIES.search(str(mistake.what)) is not None
+
+
+def _as_of_damper(truth: Reference, mistake: Mistake, right: Collection[str | None]) -> Mistake:
+    """A mistake in the number of a term with the constant of a damper, as one of step 6: no derivative brings it."""
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr) and not x.is_number]
+    number = any(x in mistake.name for x in NUMBERS)
+    if not formulas or not number or mistake.step != 5 or str(mistake.why) not in GENERAL:
+        return mistake
+    dampers = [truth.expand(e.b) for e in truth.model.elements if isinstance(e, Damper) and e.b is not None]
+    own = set[sp.Basic]().union(*map(bounded.letters, dampers)) - bounded.letters(truth.T) - bounded.letters(truth.V)
+    if not formulas[0].atoms(sp.Derivative) or not bounded.letters(formulas[0]) & own:
+        return mistake
+    return replace(mistake, step=6, why=AS_ABOVE if mistake.coordinate in right else OF_RESISTANCE)
 
 
 def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collection[str | None]) -> Text:

@@ -20,10 +20,13 @@ from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_fac
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
+from lagrangian.model import Damper, Spring
 from lagrangian.records import dataclass
 
 MOST_LETTERS = 14
 """The most letters of masses and lengths that are tried in a missing term."""
+MOST_LAWS = 6
+"""The most springs and dampers whose whole forces are tried in one."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
 COSTS: dict[sp.Expr, float] = {sp.S.NegativeOne: 1.0, sp.Integer(2): 1.0, sp.S.Zero: 1.6, sp.S.Half: 1.6}
@@ -223,10 +226,27 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
             foreign |= any(t.has(m) and not expr.has(m) for m in masses)
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
             found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
+    for x in _efforts(truth):
+        found.setdefault(x, MISSING)
     for m in masses:
         for kind in kinds:
             found.setdefault(cast("sp.Expr", m * kind), MISSING + BODY + (0 if expr.has(m) else FOREIGN))
     yield from ((cost, x) for x, cost in found.items())
+
+
+def _efforts(truth: Reference) -> Iterator[sp.Expr]:
+    """The whole forces of linear springs and dampers that are sums, c (θ′ + x′/R): of one end, they stand in a balance
+    as they are."""
+    model = truth.model
+    for e in [x for x in model.elements if isinstance(x, (Spring, Damper))][:MOST_LAWS]:
+        if isinstance(e, Spring) and e.k is not None:
+            whole = truth.expand(e.k * e.extension(model))
+        elif isinstance(e, Damper) and e.b is not None:
+            whole = truth.expand(e.b * e.rate(model))
+        else:
+            continue
+        if 1 < terms(whole) <= MOST_TERMS:
+            yield whole
 
 
 def is_mass(truth: Reference, letter: sp.Symbol) -> bool:
