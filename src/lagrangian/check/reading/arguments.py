@@ -139,13 +139,13 @@ def with_primes_as_slopes(
         if changes(name):
             continue
         forms = _primed(name, of, alone=not moving) if name in primed else []
-        forms += _differentiated(name, of) if not system(name) and name not in _LETTERS else []
+        forms += differentiated(name, of) if not system(name) and name not in _LETTERS else []
         new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
-        edits += [(*m.span(), _apart(text.text, m, new)) for form in forms for m in re.finditer(form, text.text)]
+        edits += [(*m.span(), apart_from(text.text, m, new)) for form in forms for m in re.finditer(form, text.text)]
     return text.edited(apart(sorted(edits)))
 
 
-def _apart(text: str, match: re.Match[str], new: str) -> str:
+def apart_from(text: str, match: re.Match[str], new: str) -> str:
     """What stands in the place of a match, with spaces where there are none: two would be a gap between statements."""
     before, behind = text[match.start() - 1 : match.start()], text[match.end() : match.end() + 1]
     return f"{'' if before.isspace() else ' '}{new}{'' if behind.isspace() else ' '}"
@@ -157,7 +157,7 @@ def _primed(name: str, of: str, *, alone: bool) -> list[str]:
     return [rf"(?:(?<![\w\\])|(?<=\d)(?=\\)){_spelled(name)}\s?['’′](?!['’′]){applied}{'?' if alone else ''}"]
 
 
-def _differentiated(name: str, of: str) -> list[str]:
+def differentiated(name: str, of: str) -> list[str]:
     """The patterns of a function of a coordinate that is differentiated by it, as a fraction or by an operator."""
     d, by = r"(?:\\mathrm\s?\{d\}|\\partial|d|∂)\s?", rf"{_letter(of)}(?![\w'’′\u0307(])"
     applied = rf"{_spelled(name)}\s?{_argument(of)}"

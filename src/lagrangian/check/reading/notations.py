@@ -10,6 +10,7 @@ from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
+from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
@@ -114,6 +115,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         applied = with_functions_applied(tagless, taken, names.notes)
         tagless = with_slopes_by_arguments(applied, lambda name: key(name) in moving, taken, names.notes)
     tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
+    tagless = with_slopes_of_definitions(tagless, names, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")

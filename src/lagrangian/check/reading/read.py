@@ -16,6 +16,7 @@ from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
+from lagrangian.check.reading.defined_functions import called_definitions
 from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
@@ -240,7 +241,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     source = plain.source(typed, text)
     _check_length(source)
     own = {key(name) for name in model.symbols}
-    lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
+    stated = dependents(text, lambda name: key(name) in own, lines.names.changes)
+    lines.names.dependents = stated | called_definitions(text, lines.names)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
     text = text if latex else with_spoken_signs(text, words)
