@@ -71,3 +71,10 @@ def test_a_wrong_deflection_is_told_in_one_sense(hoist: Derivation) -> None:
     assert not found.right
     assert sum("deflection" in x for x in told) == 1
     assert any("Damper 'bearing'" in x for x in told)
+
+
+def test_a_number_beside_equations_is_no_equation(hoist: Derivation) -> None:
+    rows = "5 s'' + 49.05 + 400 s - 120 α = 0\n2 α'' + 36 α - 120 s + 7 α' = 0"
+    assert hoist.check(f"sin 20° = 0.3420\n{rows}").right
+    assert not hoist.check(f"sin 20° = 0.3420\n{rows}".replace("- 120 s", "- 60 s")).right
+    assert not hoist.check(f"sin 20° = 0.9129\n{rows}").right
