@@ -81,6 +81,16 @@ def is_rounded(number: sp.Expr, value: float) -> bool:
     return number != exact and _is_rounded_from(number, exact)
 
 
+def is_true_number(line: AnsweredLine) -> bool:
+    """Whether a line only says the value of a number, rounded: sin 20° = 0.3420. It is no equation of motion."""
+    if line.kind != "equation" or not line.expr.is_Add or not line.expr.is_number:
+        return False
+    number, rest = line.expr.as_coeff_Add()
+    return (
+        _is_finite(rest) and number != 0 and any(_is_rounded_from(x, y) for x, y in ((-number, rest), (number, -rest)))
+    )
+
+
 def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     """Whether a sum is the right one, with numbers that may be rounded."""
     meant = {k: x for k, x in _sums(bounded.expand(right)).items() if x}

@@ -23,6 +23,7 @@ from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.reasoned import says_again
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
 from lagrangian.check.explain.wrong_balance import balances_agree
 from lagrangian.check.held import held
@@ -198,7 +199,12 @@ def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Seque
     later = [f.line for f in verdict.findings if f.follows]
     findings = with_wrong_definitions(verdict.findings, Blamed((said,), (*mended, *below, *later)))
     told = verdict.mistakes if _open(replace(verdict, findings=findings)) else ()
-    return replace(verdict, findings=findings, mistakes=(said.mistake, *told), alternatives=(), sure=True)
+    same = [m for m in told if says_again(m, said.mistake)]
+    first = next(
+        (m for m in same if m.name == said.mistake.name), said.mistake
+    )  # of an energy, in which no sense shows
+    told = tuple(m for m in told if not any(m is x for x in same))
+    return replace(verdict, findings=findings, mistakes=(first, *told), alternatives=(), sure=True)
 
 
 def _wrong_alike(truth: Reference, mended: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[bool]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import sympy as sp
 
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.bodies_said import Blamed
@@ -98,7 +99,22 @@ def as_defined(
         told = sorted(told, key=lambda m: str(m.what) not in above)
     said = [p for p in blamed.said if not p.elsewhere and p.words.of.kind in PLACES] if blamed is not None else []
     own = {p.mistake.element: p for p in said}
-    return tuple(reasoned(pool, own[m.element], pieces) if m.element in own and m.name in OF_A_WAY else m for m in told)
+    told = [reasoned(pool, own[m.element], pieces) if m.element in own and m.name in OF_A_WAY else m for m in told]
+    lines = [p.mistake for p in blamed.said] if blamed is not None else []
+    return tuple(m for m in told if not any(m.name != x.name and says_again(m, x) for x in lines if x in told))
+
+
+def says_again(mistake: Mistake, said: Mistake) -> bool:
+    """Whether a mistake in the same element sets the same sum right as a wrong definition, in either sense: R φ − x for
+    R φ + x beside x − R φ for it, or that the deflection is taken so."""
+    own, theirs = _sums_in(mistake), _sums_in(said)
+    return mistake.element == said.element is not None and len(own) > 1 and own <= theirs
+
+
+def _sums_in(mistake: Mistake) -> set[sp.Expr]:
+    """The sums in the words of a mistake, of two signs the same one."""
+    sums = (x for x in mistake.what.parts if isinstance(x, sp.Add))
+    return {-x if x.could_extract_minus_sign() else x for x in sums}
 
 
 def _is_of(mistake: Mistake, title: str) -> bool:

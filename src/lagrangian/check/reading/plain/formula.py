@@ -28,7 +28,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.calls import PlainCalls
 from lagrangian.check.reading.plain.conditions import AND, NOT, OR
 from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS
-from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, tokenize
+from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, is_varied, tokenize
 from lagrangian.check.reading.programs.residuals import CALLED
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.errors import ParseError
@@ -263,7 +263,7 @@ class PlainParser(PlainCalls):
             and (rate := self._d_of_bracket(token)) is not None
         ):
             return rate
-        if token.text[0] == VARIATION and len(token.text) > 1 and not self.words.is_name(VARIATION):
+        if token.text[0] == VARIATION and is_varied(token.text, self.words):
             return wrapped("variation", token.start, name(token.text[1:], token.start))
         if self.words.is_function(token.text):
             return self._function(token)

@@ -68,6 +68,8 @@ VARIATION = "δ"
 """The sign of virtual displacements and virtual work: δx, δW."""
 _VARIED = re.compile(rf"{VARIATION}?[^{VARIATION}]+|{VARIATION}")
 """What stands in front of virtual displacements, and each of them."""
+_OWN_DELTA = re.compile(rf"{VARIATION}_?\d{{1,3}}")
+"""A name with the letter δ: δ1 is no virtual displacement, of which a number has none."""
 _ARGUMENT = re.compile(r"(?:sin|cos|exp)[ ]?\(?[^()=\n]{0,40}\Z")
 """The text up to a place in the argument of a function: no t that stands there is a tonne."""
 MOST = 60
@@ -145,9 +147,15 @@ def _is_times_rate(of: str, words: Words) -> bool:
     return words.names.changes(undotted(of[1:])[0]) or words.is_own(of[1:])
 
 
+def is_varied(word: str, words: Words) -> bool:
+    """Whether a word may hold a virtual displacement: not if the system or the answer has a name δ, nor in δ1."""
+    own = word == VARIATION or _OWN_DELTA.fullmatch(word) is not None
+    return VARIATION in word and not own and not words.is_name(VARIATION)
+
+
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
     """The tokens of a word: one, or one for each of its parts; a virtual displacement, δx in Fδx, is one."""
-    if VARIATION in word and word != VARIATION and not words.is_name(VARIATION):
+    if is_varied(word, words):
         for piece in _VARIED.finditer(word):
             at = start + piece.start()
             if piece.group().startswith(VARIATION):
