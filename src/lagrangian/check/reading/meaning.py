@@ -293,9 +293,9 @@ class Meaning(ExpressionReader):
                 )
             if both and total.shape[0] * value.shape[1] * value.shape[0] > 20 * MAX_ENTRIES:
                 self.fail("the matrices are too large to multiply", child, code="E703")
+            summed = both and value.shape[0] > 1 and not listed
             total = total * value
-            number = isinstance(total, MatrixBase) and len(total) == 1 and not listed  # a dot product
-            total = total[0] if number else total
+            total = total[0] if summed and len(total) == 1 else total  # a dot product; M q'' of one coordinate is none
             self._spend(total, child)
         return total
 
