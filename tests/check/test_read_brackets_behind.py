@@ -81,3 +81,27 @@ def test_a_name_that_is_used_elsewhere_is_no_remark() -> None:
     wrong = FAR.replace("REMARK", "scale / m").replace("M - 2", "scale M - 2").replace("phi'' =", "scale = 2\nphi'' =")
     assert not table().check(wrong, hint=0).right
     assert not table().check(FAR.replace("REMARK", "r / m"), hint=0).right
+
+
+NAMED = """[ J + m r²   0 ] [φ̈]   [ M - 2 m r r' φ' ]   [ u ]
+[ 0          m ] [r̈] = [ m r φ'² - k r   ] = [ v ]
+
+φ̈ = u/(J + m r²)
+r̈ = v/m"""
+
+
+@pytest.mark.parametrize(
+    "written", [NAMED, "[J + m r², 0; 0, m] [φ''; r''] = [M - 2 m r r' φ'; m r φ'² - k r] = [u; v]"]
+)
+def test_names_in_a_column_behind_a_column_of_formulas_are_defined_by_it(written: str) -> None:
+    solved = written if "φ̈" in written else f"{written}\nφ'' = u/(J + m r²)\nr'' = v/m"
+    verdict = table().check(solved)
+    assert verdict.right, verdict.to_text()
+    for old, new in (("- k r", "+ k r"), ("- 2 m", "- m"), ("= u/", "= v/"), ("= v/m", "= 2 v/m")):
+        assert old in solved
+        assert not table().check(solved.replace(old, new), hint=0).right, new
+
+
+def test_names_in_such_a_column_that_are_given_a_value_keep_it() -> None:
+    wrong = f"u = M\n{NAMED}"
+    assert not table().check(wrong, hint=0).right

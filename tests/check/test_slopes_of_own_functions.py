@@ -50,3 +50,40 @@ def test_the_time_derivative_of_a_function_is_no_slope() -> None:
     written = PLAIN.replace("SLOPE theta'", "dI/dt").replace("SLOPE", "dI/dtheta")
     assert derivation("spherical-pendulum").check(written, hint=0).right
     assert not derivation("spherical-pendulum").check(written.replace("dI/dt phi'", "dI/dt theta' phi'"), hint=0).right
+
+
+DECLARED = r"""\[ I(\theta)=mL^2\sin^2\theta,\qquad I'=\frac{dI}{d\theta}=2mL^2\sin\theta\cos\theta \]
+\[ I''=2mL^2\cos 2\theta \]
+\[ mL^2\ddot\theta-\frac12I'\dot\phi^2+mgL\sin\theta=0 \]
+\[ I\ddot\phi+I'\dot\theta\dot\phi=0 \]"""
+
+
+@pytest.mark.parametrize(
+    "declared", [r"I'=\frac{dI}{d\theta}=", r"I'(\theta)=dI/d\theta=", r"I' = \frac{\mathrm{d}I}{\mathrm{d}\theta} ="]
+)
+def test_an_answer_says_that_its_primes_are_slopes(declared: str) -> None:
+    written = DECLARED.replace(r"I'=\frac{dI}{d\theta}=", declared)
+    verdict = derivation("spherical-pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+    assert "slope" in verdict.to_text()
+    for old, new in (
+        (r"\frac12I'", "I'"),
+        ("=2mL^2\\sin", "=mL^2\\sin"),
+        ("I''=2m", "I''=m"),
+        (r"+I'\dot\theta", r"-I'\dot\theta"),
+        (r"+I'\dot\theta\dot\phi", r"+I'\dot\phi"),
+        (r"+I'\dot\theta\dot\phi", r"+I''\dot\theta\dot\phi"),
+    ):
+        assert old in written
+        assert not derivation("spherical-pendulum").check(written.replace(old, new), hint=0).right, new
+
+
+def test_slopes_are_declared_in_plain_text_beside_primes_of_rates() -> None:
+    written = """I = m L^2 sin(θ)^2, I' = dI/dθ = 2 m L^2 sin θ cos θ
+m L^2 θ'' - 1/2 I' φ'^2 + m g L sin θ = 0
+I φ'' + I' θ' φ' = 0
+"""
+    verdict = derivation("spherical-pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+    for old, new in (("1/2 I'", "I'"), ("I' θ' φ'", "I' φ'"), ("= 2 m", "= m"), ("dI/dθ", "dI/dθ θ'")):
+        assert not derivation("spherical-pendulum").check(written.replace(old, new), hint=0).right, new

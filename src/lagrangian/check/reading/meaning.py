@@ -138,7 +138,8 @@ class Meaning(ExpressionReader):
             energy = self._meaning(what)[1]
             if self.names.is_unknown(energy):  # ∂c_r/∂ξ̇_i: a part of something that has no value here
                 return slope(key(kind), self.value(by))
-            if not energy.args or (isinstance(energy, AppliedUndef) and self.names.model.expand(energy) == energy):
+            energy = self.names.model.expand(energy)  # a quantity that the system defines
+            if not energy.args or isinstance(energy, AppliedUndef):
                 self.fail(
                     f"'{what}' is not an energy that your answer gives",
                     what,

@@ -10,12 +10,14 @@ from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
+from lagrangian.check.reading.declared_slopes import with_declared_slopes
 from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
 from lagrangian.check.reading.drawn.dots_above import with_dots_above
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
+from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
@@ -114,6 +116,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not latex:
         applied = with_functions_applied(tagless, taken, names.notes)
         tagless = with_slopes_by_arguments(applied, lambda name: key(name) in moving, taken, names.notes)
+    tagless = with_declared_slopes(tagless, lambda name: key(name) in moving, taken, names.notes, latex=latex)
     tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
     tagless = with_slopes_of_definitions(tagless, names, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
@@ -136,7 +139,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
-    plain = sentences_apart(on_one_line(without_programs(said, names.changes, taken)))
+    plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(plain, lines.model, taken)
 
 

@@ -43,6 +43,7 @@ _NAMED_ROW = re.compile(
 )
 _ROW_ALONE = re.compile(r"\s*+(?P<open>\[)(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
 _ATOM = r"[^\W\d]\w{0,15}['’′]{0,2}"
+_NAME_ALONE = re.compile(r"\s*+[^\W\d]\w{0,15}+\s*+\Z")
 _BRACED_NAME = re.compile(rf"(?<![_^\w{{,])\{{[ \t]*+(?P<name>{_ATOM}|0)[ \t]*+\}}")
 _BRACED_COLUMN = re.compile(r"(?<![_^\w{,])\{(?P<entries>[^{}=;]{0,200}(?:;[^{}=;]{0,200}){1,20})\}")
 _MAX = 200
@@ -184,7 +185,10 @@ def _block(text: str, run: Sequence[tuple[int, int, _Row]]) -> Iterator[tuple[in
     rows = [row for _, _, row in run]
     between = [[row.gaps[i].strip() for row in rows] for i in range(len(rows[0].gaps))] if len(rows) > 1 else []
     signs = [[gap for gap in column if gap] for column in between]
-    if not signs or any(len(x) > 1 for x in signs[:-1]) or sum("=" in x[0] for x in signs if x) > 1 or signs[0]:
+    if not signs or any(len(x) > 1 for x in signs[:-1]) or signs[0]:
+        return
+    equal = [i for i, x in enumerate(signs) if x and "=" in x[0]]
+    if len(equal) > 1 and not (equal == [len(signs) - 3, len(signs) - 2] and _names_last(text, rows)):
         return
     pieces: list[tuple[str, int]] = []
     for i in range(len(rows[0].groups)):
@@ -196,6 +200,11 @@ def _block(text: str, run: Sequence[tuple[int, int, _Row]]) -> Iterator[tuple[in
             pieces += [("; " if k else "", a), (text[a:b], a)]
         pieces.append(("]", inside[-1][1]))
     yield run[0][0], run[-1][1], pieces
+
+
+def _names_last(text: str, rows: Sequence[_Row]) -> bool:
+    """Whether the last column consists of names: [M] [q''] = [f] = [p ; r]."""
+    return all(_NAME_ALONE.match(text, *row.groups[-1]) for row in rows)
 
 
 def _row_ends(text: str) -> Iterator[Edit]:

@@ -1,0 +1,74 @@
+r"""What an answer says its primes mean: after ℓ' = dℓ/dθ, ℓ' is a slope and ℓ'' is the slope of ℓ', no rates.
+
+ℓ' = dℓ/dθ = a sin θ / ℓ,  ℓ'' = …       ℓ_slope = ∂ℓ/∂θ;  ∂ℓ/∂θ = a sin θ / ℓ,  ∂ℓ_slope/∂θ = …
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import islice
+
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.read.letters import key
+
+_NAME = r"\\?[^\W\d_]\w{0,15}+"
+_D = r"(?:\\mathrm[ ]?\{d\}|\\partial|d|∂)[ ]?"
+_DECLARED = re.compile(
+    rf"(?<![\w\\'’′^*/+)}}\]−-])(?P<name>{_NAME})[ ]?['’′](?:[ ]?(?:\\left)?\([ ]?(?P<at>{_NAME})[ ]?(?:\\right)?\))?"
+    r"[ \t]*+&?[ \t]*+(?:=|:=|\\equiv|≡)[ \t]*+&?[ \t]*+"
+    rf"(?:\\[dt]?frac[ ]?\{{[ ]?{_D}(?P<above>{_NAME})[^{{}}]{{0,12}}\}}[ ]?\{{[ ]?{_D}(?P<below>{_NAME})[ ]?\}}"
+    rf"|(?P<open>\()?{_D}(?P<over>{_NAME})[ ]?/[ ]?{_D}(?P<under>{_NAME})(?![\w'’′\u0307\u0308(])(?(open)\)))"
+    r"(?P<behind>[ \t]*+&?[ \t]*+(?:=|(?=[,;.:\n$)]|\\\]|\\\)|\\\\|\\q?quad|\\end|\Z)))"
+)
+_IN_COMMAND = re.compile(r"\\[A-Za-z]*\Z")
+"""What makes a letter the end of a command."""
+_MOST = 12
+_LONGEST = 20_000
+
+
+def with_declared_slopes(
+    text: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], told: dict[str, None], *, latex: bool
+) -> TracedText:
+    """Return an answer in which names with primes that it declares to be slopes are written as such; notes tell these.
+
+    ``moves`` says whether a name is a coordinate, ``taken`` whether the system has a name.
+    """
+    found: dict[str, re.Match[str]] = {}
+    for match in islice(_DECLARED.finditer(text.text[:_LONGEST]), _MOST):
+        over, by = match["above"] or match["over"], match["below"] or match["under"]
+        at = match["at"] or by
+        fits = _key(over) == _key(match["name"]) and _key(at) == _key(by) and moves(_bare(by))
+        if fits and not moves(_bare(match["name"])) and not taken(f"{_bare(match['name'])}_slope"):
+            found.setdefault(match["name"], match)
+    edits: list[Edit] = []
+    for name, match in found.items():
+        by = match["below"] or match["under"]
+        slope = f"{name}_{{slope}}" if latex else f"{name}_slope"
+        first, second = (rf"\frac{{\partial {x}}}{{\partial {by}}}" if latex else f"∂{x}/∂{by}" for x in (name, slope))
+        goes_on = "=" in match["behind"]
+        apart_by = ", \\quad" if latex else ","
+        edits.append((*match.span(), f"{slope} = {first}{f'{apart_by} {first} =' if goes_on else ''}"))
+        applied = rf"(?:[ ]?(?:\\left)?\([ ]?{re.escape(by)}[ ]?(?:\\right)?\))?"
+        before = "" if latex else r"(?<![\w\\])"
+        form = rf"{before}{re.escape(name)}[ ]?(?P<primes>['’′]{{1,2}}|″)(?!['’′″]){applied}"
+        for use in re.finditer(form, text.text):
+            part = (
+                name[0] != "\\"
+                and latex
+                and _IN_COMMAND.search(text.text, max(0, use.start() - 20), use.start()) is not None
+            )
+            if not match.start() <= use.start() < match.end() and not part:
+                twice = use["primes"] not in ("'", "’", "′")
+                edits.append((*use.span(), f" {second} " if twice else f"{slope} "))
+        shown = "ℓ" if _bare(name) == "ell" else _bare(name)
+        told.setdefault(f"{shown}' was read as the slope of {shown} by {_bare(by)}, as the answer says.")
+    return text.edited(apart(sorted(edits)))
+
+
+def _bare(name: str) -> str:
+    return name.removeprefix("\\")
+
+
+def _key(name: str) -> str:
+    return key("ℓ" if _bare(name) == "ell" else _bare(name))
