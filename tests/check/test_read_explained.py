@@ -205,3 +205,27 @@ def test_a_momentum_that_is_also_a_derivative_is_judged(energy: str) -> None:
 def test_what_coordinates_are_called_needs_no_note(called: str) -> None:
     assert not drum().check(f"{called}\n{RIGHT}").notes
     assert "nothing else uses" in drum().check(f"{called} + 2 phi\n{RIGHT}".replace("] + 2 phi", " + 2 phi]")).to_text()
+
+
+def _holds(answer: str) -> bool:
+    """Whether an answer is right; one that cannot be read is not."""
+    try:
+        return drum().check(answer, hint=0).right
+    except ParseError:
+        return False
+
+
+@pytest.mark.parametrize("said", ["Inertia of the load, reduced to φ: ", "The load: ", "Load gives ", ""])
+def test_a_name_is_explained_behind_what_it_stands_in(said: str) -> None:
+    """m u², u = R: what is mentioned is no part of what is stated, which is judged where it is used."""
+    used = f"{said}m u², u = R\n(J + m u²) phi'' + d phi' + k u² phi - m g u = tau"
+    assert drum().check(used, hint=0).right
+    assert not _holds(used.replace("u = R", "u = 2 R"))
+    assert not _holds(used.replace("k u²", "k u"))
+    assert not _holds(used.replace("m u², u", "m v², u").replace("m g u", "m g v"))
+
+
+def test_what_stands_before_a_statement_of_something_else_belongs_to_it() -> None:
+    """No name is explained: the comma is left out by mistake, or a term stands behind it."""
+    assert not _holds("m R^2 phi'', J phi'' + d phi' + k R^2 phi - m g R = tau")
+    assert not _holds("(J + m R^2) phi'' + d phi' + k R^2 phi - m g R, q = tau")

@@ -114,7 +114,15 @@ def _belongs(text: str, left: MathSpan, right: MathSpan) -> bool:
     said = _WORD_NEXT.match(beyond) if passing is right else _WORD_LAST.search(beyond[-30:])
     between = text[left.end : right.start]
     ended = passing is left and _SENTENCE_END.match(between) and not _OPERATOR.search(text[left.start : left.end])
-    return said is None and not ended and not re.search(r"[^\W\d_]", between)
+    explained = passing is left and between.strip() == "," and _explains(text[right.start : right.end], left, text)
+    return said is None and not ended and not explained and not re.search(r"[^\W\d_]", between)
+
+
+def _explains(stated: str, left: MathSpan, text: str) -> bool:
+    """Whether a statement says what a name is that stands in what is mentioned before it: m u², u = a d sin θ / l."""
+    named = _NAME_ALONE.match(stated)
+    names = re.findall(r"[^\W\d_][^\W²³]*", text[left.start : left.end])
+    return named is not None and named[0][:-1].strip() in names
 
 
 _SENTENCE_END = re.compile(r"[.!?]\s")
