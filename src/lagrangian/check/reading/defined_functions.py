@@ -16,7 +16,7 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 if TYPE_CHECKING:
     from lagrangian.check.reading.names import Names
 
-_WORD = re.compile(r"\\?[^\W\d_](?:\w|_\{\w{1,20}\}){0,24}")
+_WORD = re.compile(r"\\?[^\W\d_](?:_\{\w{1,20}\}|[^\W_]|_(?=\w)){0,24}")
 _STATED = re.compile(
     r"(?:\A|[\n,;:$&=({\[]|\\quad|\\qquad|[^\W\d_]{2})\s{0,3}(?P<name>\\?[^\W\d_]\w{0,24})\s{0,3}"
     r"(?:\\left\s?)?\(\s?(?P<of>\\?[^\W\d_]\w{0,24})\s?(?:\\right\s?)?\)\s{0,3}&?\s{0,3}=(?!=)"
