@@ -268,3 +268,26 @@ def test_a_drum_turns_with_its_motor_and_its_brake() -> None:
     assert str(verdict.mistakes[0].what).startswith(
         "Line 1 is not right: the angular velocity of 'drum' is 2*s'/a, not"
     )
+
+
+@cache
+def bead() -> Derivation:
+    """A bead that slides on a rod that turns, pulled back by a spring, with friction along the rod."""
+    s = System("bead on a turning rod")
+    u, w = s.coordinates("u w")
+    m, J, k, c = s.parameters("m J k c")
+    s.kinetic(J * w.diff() ** 2 / 2 + m * u.diff() ** 2 / 2 + m * u**2 * w.diff() ** 2 / 2)
+    s.spring(k, deflection=u, name="spring")
+    s.damper(c, deflection=u, name="friction")
+    return s.derive()
+
+
+def test_an_equation_of_two_wrong_derivatives_follows_and_none_of_its_terms_is_told_as_wrong() -> None:
+    T, V = "T = J w'^2/2 + m u'^2 + m u^2 w'^2/2", "V = k u^2/2"
+    p, slope = "∂L/∂u' = 2 m u'", "∂L/∂u = m u w'^2/2 - k u"
+    own = "2 m u'' - m u w'^2/2 + k u = -c u'"
+    verdict = bead().check("\n".join([T, V, p, slope, own]))
+    findings = {f.line.number: f for f in verdict.findings}
+    assert findings[5].follows and "line 5:" not in str(verdict) and "line 5," not in str(verdict)
+    other = {f.line.number: f for f in bead().check("\n".join([T, V, p, slope, own.replace("= -", "= ")])).findings}
+    assert not other[5].follows and not other[5].status.right

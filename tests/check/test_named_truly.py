@@ -366,3 +366,23 @@ def test_a_weight_that_is_forgotten_is_no_small_angle() -> None:
     verdict = derivation("cart-pole").check("V = 0")
     said = [str(m.what) for m in (*verdict.mistakes, *verdict.alternatives)]
     assert said and not any("small" in x for x in said), said
+
+
+@cache
+def lamps() -> lg.Derivation:
+    """Two equal lamps on equal rods side by side, held parallel by a bar without mass; the hinge has friction."""
+    s = lg.System("two lamps")
+    w = s.coordinate("w")
+    m, l, b, c, g = s.parameters("m l b c g")
+    s.particle(m, at=s.point("L1", (l * sp.sin(w), -l * sp.cos(w))), name="lamp 1")
+    s.particle(m, at=s.point("L2", (b + l * sp.sin(w), -l * sp.cos(w))), name="lamp 2")
+    s.gravity((0, -1), g)
+    s.damper(c, deflection=w, name="hinge")
+    return s.derive()
+
+
+def test_of_equal_weights_none_is_named_alone() -> None:
+    answer = "T = m l^2 w'^2\nV = -m g l cos(w)\nQ_w = -c w'\n2 m l^2 w'' + m g l sin(w) = -c w'"
+    (mistake,) = lamps().check(answer).mistakes
+    said = str(mistake.what)
+    assert "one of " in said and "'lamp 1'" in said and "'lamp 2'" in said and said.endswith("is missing in V."), said

@@ -15,7 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.stated import StatedQuantity, dissipation, given, index_of, right_value
+from lagrangian.check.stated import StatedQuantity, dissipation, given, index_of, right_value, spanned
 from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -29,16 +29,35 @@ def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> li
     """The findings, with the equations marked that have exactly what a wrong derivative above them has too much."""
     derived = [f for f in findings if f.line.kind in ("p", *DERIVED) and _is_open(f)]
     rows = [f for f in findings if f.line.kind == "equation" and _is_open(f)]
-    if not derived or not rows:
+    both = list(_of_both(truth, findings)) if rows else []
+    if not (derived or both) or not rows:
         return list(findings)
     extra = [x for f in derived for x in _extra(truth, f)]
     values = CompiledExpressions([f.line.expr for f in rows]).at(truth.states)
     follow: set[int] = set()
     for f, P in zip(rows, values, strict=True):
         above = [(i, r) for number, i, r in extra if number <= f.line.number]
+        if np.isfinite(P).all() and any(n <= f.line.number and spanned(P[None], x) for n, x in both):
+            follow.add(id(f))
         if np.isfinite(P).all() and any(_has(truth, f, P, i, r) for i, r in above):
             follow.add(id(f))
     return [replace(f, follows=True) if id(f) in follow else f for f in findings]
+
+
+def _of_both(truth: Reference, findings: Sequence[Finding]) -> Iterator[tuple[int, Array]]:
+    """The equations d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i − Ξ_i of both derivatives as they are stated, of which one is wrong, whether
+    it follows or not, with the line of the last; Ξ_i is the right one."""
+    for i, c in enumerate(truth.model.coordinates):
+        own = {k: [f for f in findings if f.line.kind == k and f.line.name == c.name] for k in ("p", "slope")}
+        if any(len(x) != 1 for x in own.values()):
+            continue
+        p, slope = (x[0] for x in own.values())
+        if p.status.right and slope.status.right:
+            continue
+        expr = bounded.diff(p.line.expr, time) - slope.line.expr - truth.Xi[i]
+        values = CompiledExpressions([expr]).at(truth.states)
+        if np.isfinite(values).all() and np.abs(values).max() > 0:
+            yield max(p.line.number, slope.line.number), values
 
 
 def with_right_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:

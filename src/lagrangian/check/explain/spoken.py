@@ -15,6 +15,7 @@ from lagrangian.check.explain.given_said import OF_LETTERS, of_given
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.model import Gravity
 from lagrangian.page.formula import Text, text
 
 WHY_COPIED = "The Lagrangian is kinetic minus potential energy: take both as they stand above."
@@ -67,6 +68,8 @@ def of_one(pool: Pool, told: Told, mistake: Mistake) -> Mistake:
     element, times = told.mistake.element, float(told.times)
     if element is None or mistake.element != element.title:
         return mistake
+    if isinstance(element, Gravity):
+        return _of_one_weight(pool, told, mistake)
     same = {element.title: mistake}
     for other in pool.named(told.mistake.name):
         of = other.element
@@ -85,6 +88,33 @@ def of_one(pool: Pool, told: Told, mistake: Mistake) -> Mistake:
     return replace(
         mistake, what=_called(mistake.what, element.title, one), brief=brief, element=" or ".join((*some, last))
     )
+
+
+def _of_one_weight(pool: Pool, told: Told, mistake: Mistake) -> Mistake:
+    """The same for the weight of one of several equal bodies, of which all are elements of one field of gravity."""
+    titles = [b.title for b in pool.truth.model.bodies]
+
+    def body_in(words: Text) -> str | None:
+        held = [x for x in titles if x in str(words)]
+        return held[0] if len(held) == 1 else None
+
+    own, times = body_in(mistake.what), float(told.times)
+    if own is None:
+        return mistake
+    same, plain = [own], in_words(pool.truth, told, None)
+    for other in pool.named(told.mistake.name):
+        alike = other.element is told.mistake.element and other.takes(told.times)
+        if not alike or pool.key(other, times) != pool.key(told.mistake, times):
+            continue
+        words = in_words(pool.truth, replace(told, mistake=other), None)
+        title = body_in(words.what)
+        if title is not None and title not in same and _called(words.what, title, "") == _called(plain.what, own, ""):
+            same.append(title)
+    if len(same) == 1:
+        return mistake
+    one = f"one of {', '.join(same[:-1])} and {same[-1]}"
+    brief = None if mistake.brief is None else _called(mistake.brief, own, one)
+    return replace(mistake, what=_called(mistake.what, own, one), brief=brief)
 
 
 def _called(words: Text, title: str, name: str) -> Text:
