@@ -258,6 +258,10 @@ class Against:
         """The same with more mistakes that would show in a right line."""
         return Against(self.mistakes | mistakes, self.pieces)
 
+    def only(self, mistakes: Set[int]) -> Against:
+        """The same with these alone as the mistakes that would show in a right line."""
+        return Against(frozenset(mistakes), self.pieces)
+
 
 def _turns(told: Told) -> bool:
     """Whether a mistake is said of the rotation of a body."""
