@@ -114,3 +114,20 @@ def test_a_product_in_brackets_stays_one() -> None:
     """No line states p(φ), so that p (φ) is a product, and no height."""
     written = PLAIN.format(stated="h = 0", slope="dp/dphi")
     assert not hatch().check(written.replace("V = -m g p", "V = -m g p(phi)"), hint=0).right
+
+
+RATE = """T = 1/2 I phi'^2 + 1/2 m p'^2
+V = -m g p
+p' = {rate}
+T = 1/2 (I + m w^2) phi'^2 with w = {slope}
+"""
+
+
+def test_a_position_that_a_right_line_shows_is_not_blamed_for_a_rate() -> None:
+    """V has p as it is: only the rate has the ½."""
+    slope = "r e cos(phi)/(2 p)"
+    verdict = hatch().check(RATE.format(rate=f"{slope} phi'", slope=slope))
+    (mistake,) = verdict.mistakes
+    assert "In the velocity of particle 'weight'" in str(mistake.what), mistake.what
+    slope = "r e cos(phi)/p"
+    assert not hatch().check(RATE.format(rate=f"{slope} phi'", slope=slope)).mistakes

@@ -95,3 +95,18 @@ def test_a_letter_that_is_left_out_or_turned_is_no_reason_beside_one() -> None:
     said = told(dial(), rows)
     assert "J is left out" not in said and "J" in said, said
     assert verdict.mistakes[0].name != "left_out_of_a_sum"
+
+
+def test_a_piece_that_stands_twice_with_its_half_has_not_lost_it() -> None:
+    """½ M s² θ̇² within ½ (J + M s²) θ̇² and once more: J about the pivot, or counted twice, and no ½ is missing."""
+    s = lg.System("flap")
+    a = s.coordinate("a")
+    J, M, n = s.parameters("J M n")
+    flap = s.frame(a, name="flap")
+    s.rigid_body(mass=M, inertia=J, at=s.point("C", (n, 0), frame=flap), frame=flap, name="flap")
+    system = s.derive()
+    twice = "T = 1/2 (J + M n^2) a'^2 + 1/2 M (n a')^2"
+    first, *others = (x for v in [system.check(twice)] for x in (*v.mistakes, *v.alternatives))
+    assert "as well" in str(first.what) and all("½" not in str(x.what) or "twice" in str(x.what) for x in others)
+    lost = system.check("T = 1/2 J a'^2 + M (n a')^2")
+    assert "The ½" in str(lost.mistakes[0].what), lost.mistakes

@@ -275,6 +275,20 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
     return found
 
 
+def least_opposed(
+    pool: Pool,
+    found: list[Explanation],
+    line: AnsweredLine,
+    right: Sequence[AnsweredLine],
+    lines: Sequence[AnsweredLine],
+    against: Against,
+) -> list[Explanation]:
+    """The explanations of a line that nothing speaks against; else those that only right lines of its own kind speak
+    against, as a slip in one of two T* shows in that one; else all."""
+    elsewhere = against.only(contradicted(pool, [x for x in right if x.kind != line.kind], lines))
+    return against.unopposed(found) or elsewhere.unopposed(found) or found
+
+
 def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
     """The possible mistakes that would be visible in a line, by their identity."""
 

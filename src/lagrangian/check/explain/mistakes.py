@@ -26,6 +26,7 @@ from lagrangian.check.explain.line_mistakes import (
     UNNATURAL,
     contradicted,
     followed,
+    least_opposed,
     of_forces,
     of_line,
     stated,
@@ -131,7 +132,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
                 found, more, blamed = _with_definitions(pieces, line, said, (found, likely, more), blamed)
             found, more = (found, more) if said else taken_as(truth, line, found, more)
             more = more or (of_differences(line, findings) if not found else [])
-            groups.append(against.unopposed(found) or found)  # a slip in one of two lines shows in that one
+            groups.append(least_opposed(pool, found, line, true, lines, against))
             own, left = [*own, *more], [*left, *([] if found or more else [line])]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
     groups += [of_energy_theorem(pool, line.expr) for line in powers]

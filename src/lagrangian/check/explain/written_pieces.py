@@ -39,6 +39,8 @@ MULTIPLES = {
 }
 """Misconceptions by which a piece counts another number of times: the multiple of the piece that is added, and how
 often it counts then."""
+HALVES = frozenset(["half_forgotten", "spring_half_forgotten"])
+"""Those that lose a ½; a piece that stands with its ½ has it, however often it counts."""
 HALF = sp.Rational(1, 2)
 LEDGERS = {"T": "kinetic", "V": "potential"}
 
@@ -102,7 +104,9 @@ class WrittenPieces:
                 continue
             pieces = self._of(ledger, whole, _turns(told))
             lines = [x for x in self.lines if x.kind in (ledger, "L")]
-            if any(self._stands(line, p, pieces, times) for line in lines for p in pieces):
+            wrong = told.mistake.wrong
+            half = wrong is not None and wrong.name in HALVES
+            if any(self._stands(line, p, pieces, times, half=half) for line in lines for p in pieces):
                 return True
         rows = self.pool.W[place] / float(number)
         return bool(np.abs(self.pool.T[place]).max() > NEAR) and any(self._moves(x, times) for x in rows)
@@ -175,9 +179,9 @@ class WrittenPieces:
             terms.setdefault(k, []).append((x, factors))
         return _Line(kind, tuple(map(tuple, terms.values())))
 
-    def _stands(self, line: _Line, piece: _Piece, changed: Sequence[_Piece], times: Fraction) -> bool:
+    def _stands(self, line: _Line, piece: _Piece, changed: Sequence[_Piece], times: Fraction, *, half: bool) -> bool:
         """Whether a line has one of the pieces that are ``changed`` in full, or with its ½ beside another mass, where
-        each should count so often."""
+        each should count so often, or should have lost its ``half``."""
         sign = -1.0 if line.kind == "L" and piece.ledger == "V" else 1.0
         every = self.pool.kept("right pieces", self._pieces)
         alike = [p for p in every if p.ledger == piece.ledger and same_values(p.values, piece.values)]
@@ -187,7 +191,7 @@ class WrittenPieces:
         if others and len(of_others) < len(there):
             return True
         if len(there) == len(others) + times:
-            return False
+            return half and len(others) == 0
         if len(there) > len(others):
             return times == 0 or not line.like(sign * float(times) * piece.values)
         if times == 0 or piece.ledger == "V":
@@ -257,6 +261,10 @@ class Against:
     def also(self, mistakes: Set[int]) -> Against:
         """The same with more mistakes that would show in a right line."""
         return Against(self.mistakes | mistakes, self.pieces)
+
+    def only(self, mistakes: Set[int]) -> Against:
+        """The same with these alone as the mistakes that would show in a right line."""
+        return Against(frozenset(mistakes), self.pieces)
 
 
 def _turns(told: Told) -> bool:
