@@ -28,6 +28,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
+from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
@@ -116,6 +117,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not latex:
         applied = with_functions_applied(tagless, taken, names.notes)
         tagless = with_slopes_by_arguments(applied, lambda name: key(name) in moving, taken, names.notes)
+        tagless = with_own_derivatives(tagless, lambda name: key(name) in moving, taken)
     tagless = with_declared_slopes(tagless, lambda name: key(name) in moving, taken, names.notes, latex=latex)
     tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
     tagless = with_slopes_of_definitions(tagless, names, latex=latex)
