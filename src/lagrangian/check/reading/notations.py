@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
@@ -82,6 +83,21 @@ def _copied(text: str) -> TracedText:
     return with_drawn_pieces(with_tall_brackets(plain))
 
 
+def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], latex: bool) -> TracedText:
+    """An answer in which derivatives by a coordinate are slopes, however they are written: dℓ/dθ, ℓ', ℓ_θ."""
+    names, moving = lines.names, {key(c.name) for c in lines.model.coordinates}
+
+    def moves(name: str) -> bool:
+        return key(name) in moving
+
+    if not latex:
+        applied = with_functions_applied(text, taken, names.notes)
+        text = with_own_derivatives(with_slopes_by_arguments(applied, moves, taken, names.notes), moves, taken)
+    text = with_declared_slopes(text, moves, taken, names.notes, latex=latex)
+    text = with_primes_as_slopes(text, taken, names.changes, latex=latex)
+    return with_slopes_of_definitions(text, names, latex=latex)
+
+
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
@@ -114,13 +130,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     referred = without_unit_checks(relaxed, taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
-    if not latex:
-        applied = with_functions_applied(tagless, taken, names.notes)
-        tagless = with_slopes_by_arguments(applied, lambda name: key(name) in moving, taken, names.notes)
-        tagless = with_own_derivatives(tagless, lambda name: key(name) in moving, taken)
-    tagless = with_declared_slopes(tagless, lambda name: key(name) in moving, taken, names.notes, latex=latex)
-    tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
-    tagless = with_slopes_of_definitions(tagless, names, latex=latex)
+    tagless = _with_slopes(tagless, lines, taken, latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
