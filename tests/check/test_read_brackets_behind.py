@@ -105,3 +105,16 @@ def test_names_in_a_column_behind_a_column_of_formulas_are_defined_by_it(written
 def test_names_in_such_a_column_that_are_given_a_value_keep_it() -> None:
     wrong = f"u = M\n{NAMED}"
     assert not table().check(wrong, hint=0).right
+
+
+@pytest.mark.parametrize("mark", ["r'' &:", r"\ddot r &:", "r: &"])
+def test_a_row_of_latex_may_say_in_front_of_words_what_it_is_about(mark: str) -> None:
+    written = rf"""\begin{{align*}}
+{mark} \text{{ from the second equation }} \ddot r = r\dot\phi^2 - \tfrac{{k}}{{m}} r\\
+\intertext{{and the first one is}}
+(J + m r^2)\,\ddot\phi &= M - 2 m r\dot r\dot\phi
+\end{{align*}}"""
+    assert table().check(written).right, table().check(written).to_text()
+    for old, new in (("- \\tfrac", "+ \\tfrac"), ("M - 2 m", "M - m"), ("r\\dot\\phi^2", "r\\dot\\phi")):
+        assert old in written
+        assert not table().check(written.replace(old, new), hint=0).right

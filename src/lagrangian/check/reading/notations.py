@@ -69,6 +69,12 @@ _DEGREES = re.compile(
     r"(?:\^\s?(?:\{\s?\\circ\s?\}|\\circ(?![A-Za-z]))|\\degree(?![A-Za-z])|°)"
 )
 """An angle in degrees in LaTeX."""
+_ROW_OF = re.compile(
+    r"^[ \t]*+(?:\\d?dot[ ]?\{?[ ]?)?\\?[^\W\d]\w{0,15}\}?['’′]{0,2}"
+    r"[ \t]*+(?:&[ \t]*+:|:[ \t]*+&)[ \t]*+(?=\\text\s?\{)",
+    re.MULTILINE,
+)
+r"""What a row of LaTeX is about, in front of words: s'' &: \text{from the second equation} \ddot s = …"""
 _BY_TIME = re.compile(r"[(\[](?P<by>d/dt)[)\]](?=[ \t]?[(\[d∂])")
 """d/dt in brackets of its own: (d/dt)(∂T/∂x')."""
 _ROUND_BY_TIME = re.compile(
@@ -143,7 +149,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
-        said = with_derivatives_in_latex(with_open_text(without_sets(said)))
+        said = with_derivatives_in_latex(with_open_text(without_sets(said.sub(_ROW_OF, lambda _: ""))))
     else:
         beside = with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
         said = with_stated_values(with_derivatives(beside), taken)
