@@ -131,3 +131,30 @@ def test_a_position_that_a_right_line_shows_is_not_blamed_for_a_rate() -> None:
     assert "In the velocity of particle 'weight'" in str(mistake.what), mistake.what
     slope = "r e cos(phi)/p"
     assert not hatch().check(RATE.format(rate=f"{slope} phi'", slope=slope)).mistakes
+
+
+RELATION = """p^2 = {square}
+2 p p' = {rate}
+T = 1/2 I phi'^2 + 1/2 m p'^2
+(I + m (r e cos(phi)/p)^2) phi'' = {moment}
+"""
+
+
+@pytest.mark.parametrize(
+    ("square", "said"),
+    [
+        ("r^2 + e^2 - 2 r e sin(phi)", "2*e*r*sin(phi) has the wrong sign"),
+        ("r^2 + e^2 + r e sin(phi)", "e*r*sin(phi) should be 2*e*r*sin(phi)"),
+        ("r^2 - e^2 + 2 r e sin(phi)", "e^2 has the wrong sign"),
+    ],
+)
+def test_the_term_that_is_wrong_in_a_relation_is_named(square: str, said: str) -> None:
+    verdict = hatch().check(RELATION.format(square=square, rate="-2 r e cos(phi) phi'", moment="-m g r"))
+    assert not verdict.right
+    assert [str(m.what) for m in verdict.mistakes] == [f"In line 1, {said}."]
+
+
+@pytest.mark.parametrize("square", ["r^2 + e^2 + 3 r e sin(phi)", "r^2 - e^2 - 2 r e sin(phi)", "r^2 + e^2"])
+def test_nothing_is_named_in_a_relation_that_no_one_term_mends(square: str) -> None:
+    verdict = hatch().check(RELATION.format(square=square, rate="-2 r e cos(phi) phi'", moment="-m g r"))
+    assert not verdict.right and not any("line 1" in str(m.what) for m in verdict.mistakes)

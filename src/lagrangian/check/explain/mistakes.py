@@ -38,6 +38,7 @@ from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reasoned import as_defined, reasoned
 from lagrangian.check.explain.reduced import of_reduced
+from lagrangian.check.explain.relation_slips import of_relation
 from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
 from lagrangian.check.explain.search import EXOTIC, Explanation, Told, by_rows, first_explained
@@ -91,14 +92,14 @@ class NamedMistakes:
 def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right: Lines = ()) -> NamedMistakes:
     """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
 
-    A mistake that would be visible in a line that is right is not considered. If nothing explains a derivative, the
-    equations that follow from it are explained. ``right`` are lines that are right, besides those of the findings.
-    """
+    No mistake that would show in a right line is considered; ``right`` are more than the findings have. If nothing
+    explains a derivative, the equations that follow from it are explained."""
     findings = [f for f in findings if f.line.kind != "definition"]  # what others follow from is sought among all
     named = _of_lines(truth, lines, findings, right)
     derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
     if named.told or not derived or not any(f.follows for f in findings):
-        return named
+        told = () if named.told else of_relation(truth, findings)
+        return replace(named, told=told, left=()) if told else named
     free = [replace(f, follows=f.follows and f.line.kind != "equation") for f in findings]
     return _of_lines(truth, lines, free, right)
 
