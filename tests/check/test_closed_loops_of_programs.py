@@ -116,3 +116,16 @@ def test_a_law_with_letters_of_the_system_beside_right_comments() -> None:
     assert cart().check(CART).right
     assert not cart().check(CART.replace("m*l*w**2", "2*m*l*w**2")).right
     assert not cart().check(CART.replace("# m l^2 theta''", "# 2 m l^2 theta''")).right
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "# ratio z is dimensionless\n" + HEAD + "def f(t, y):\n    x, v = y\n    return [v, (F - 50*x + v)/2]\n",
+        "# unit less\ndef f(t, y):\n    x, v = y\n    a = F - x + 3*v # dimensionless\n    return [v, a]\n",
+        HEAD + NAMED.replace("F = -kp*x - kd*v", "F = -k*x - b*v"),
+    ],
+)
+def test_a_wrong_program_stays_wrong_beside_a_right_comment(program: str) -> None:
+    """A ratio without a dimension says nothing of the equations, and −k x − b x' may be all forces."""
+    assert not mass().check(f"{COMMENT}\n{program}").right

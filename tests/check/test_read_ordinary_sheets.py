@@ -258,3 +258,40 @@ def test_a_name_behind_words_is_given_a_value() -> None:
     assert verdict.right, verdict.to_text()
     assert not right(f"{PLANK}\n{LAMP}\n\n{said}\n{rows.replace('- m g a', '+ m g a')}")
     assert not right(f"{PLANK}\n{LAMP}\n\n{said.replace('x1 = α, x2 = β', 'x1 = β, x2 = α')}\n{rows}")
+
+
+@cache
+def windlass() -> Derivation:
+    """A load on a rope that runs off a drum, with a multiplier."""
+    s = System("windlass")
+    x, phi = s.coordinates("x phi")
+    m, J, r, g = s.parameters("m J r g")
+    s.kinetic(m * x.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    s.potential(-m * g * x)
+    s.torque(s.input("M"), on=phi)
+    s.constraint(x - r * phi, name="rope")
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    "words", ["{}, the rope has no stretch", "The rope runs without stretch: {}", "{}, unstretched"]
+)
+def test_a_relation_of_a_rope_is_no_position_at_rest(words: str) -> None:
+    rows = "m x'' = m g - S\nJ phi'' = M + S r\n"
+    assert windlass().check(rows + words.format("x = r phi")).right
+    assert not windlass().check(rows + words.format("x = 2 r phi")).right
+
+
+def test_a_generalized_force_beside_one_of_no_coordinate_is_judged() -> None:
+    """Q_y = 0 does not make Q_x the component of a force, if nothing uses both."""
+    s = System("cart")
+    x = s.coordinate("x")
+    m, k, c = s.parameters("m k c")
+    s.particle(m, at=s.point("P", (x, 0)), name="cart")
+    s.spring(k, deflection=x)
+    s.damper(c, deflection=x)
+    s.force(s.input("F"), deflection=x)
+    cart, energies = s.derive(), "\nT = m x'^2/2\nV = k x^2/2"
+    assert cart.check("Q_x = F - c x'\nQ_y = 0" + energies).right
+    assert not cart.check("Q_x = F + c x'\nQ_y = 0" + energies).right
+    assert not cart.check("Xi_x = 2 F - c x'\nXi_y = 0" + energies).right

@@ -39,6 +39,8 @@ def with_declared_slopes(
         over, by = match["above"] or match["over"], match["below"] or match["under"]
         at = match["at"] or by
         fits = _key(over) == _key(match["name"]) and _key(at) == _key(by) and moves(_bare(by))
+        rated = re.search(rf"(?<!\w){re.escape(match['name'])}[ ]?=[ ]?(?:\\dot|\w{{1,15}}['’′])", text.text)
+        fits = fits and rated is None  # v = x' is a rate, and v' its rate
         if fits and not moves(_bare(match["name"])) and not taken(f"{_bare(match['name'])}_slope"):
             found.setdefault(match["name"], match)
     edits: list[Edit] = []

@@ -139,9 +139,11 @@ class Names:
         of = of_coordinate(written)
         if of is not None and key(of[1]) in self.defined and not self.scope.meanings(of[1])[0]:
             return None  # Q_s of an s that the answer defines, beside x_s
-        for axis in "xyz" if of is not None and of[1] in ("x", "y", "z") else "":
-            if key(written)[:-1] + axis in self._seen and not self.scope.meanings(axis)[0] and axis not in self.defined:
-                return None  # Q_y beside Q_x, where x is no coordinate: a force's components
+        own = of is not None and of[1] in ("x", "y", "z") and self._seen[key(written)] > 1 and written[0] == "Q"
+        for axis in "xyz" if own else "":
+            other = key(written)[:-1] + axis
+            if self._seen[other] > 1 and not self.scope.meanings(axis)[0] and axis not in self.defined:
+                return None  # Q_y beside Q_x, both used, where x is no coordinate: a force's components
         return force_of(written, self.model, named=self._named_forces)
 
     def changes(self, written: str) -> bool:

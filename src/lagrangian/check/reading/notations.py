@@ -132,7 +132,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
         session = without_glosses_of_rates(session, names.changes)
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    relaxed = without_relaxed(without_legend(without_references(indexed)), names.changes, taken, names.notes)
+    relaxed = without_legend(without_references(indexed))
+    if not lines.model.constraints:  # x = 2 r φ beside a rope is one
+        relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_unit_checks(relaxed, taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))

@@ -16,18 +16,22 @@ from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.marked_values import ValueMarks, with_marks
 from lagrangian.check.reading.programs.marks import in_comment
 from lagrangian.errors import ParseError
-from lagrangian.model import Model
+from lagrangian.model import Damper, Model, Spring
 
 CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
 """The note on a program whose lines are not read as they stand."""
+_COMMENT = re.compile(r"[#%].*|//.*")
 COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
 SCALED = "What the program computes was not judged: it is in quantities without dimensions."
 _SCALED = re.compile(
     r"\b(?:(?:dimension|unit)less|non-?[ ]?dimensional\w{0,8}|without dimensions?|dimensionslos\w{0,2}|normiert\w{0,2}"
-    r"|adimensional\w{0,2}|adimensionn\w{0,4})\b",
+    r"|adimensional\w{0,2}|adimensionn\w{0,4})\b"
+    r"(?:[ \t]*[:,(]|[ \t]{1,4}(?:[\w-]{1,20}[ \t]{1,4}){0,2}(?:time|zeit|temps|variable|form|equation|gleichung"
+    r"|quantit|größe|unit|coordinate|model|system|state))",
     re.IGNORECASE,
 )
+"""Words that say that the quantities or the equations of a program have no dimensions, and not a ratio alone."""
 
 
 def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
@@ -62,9 +66,12 @@ def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[s
 
 
 def _is_scaled(program: CarriedOut, text: str, model: Model) -> bool:
-    """Whether a program says that it computes in quantities without dimensions, and has no parameter of the system."""
+    """Whether a program says that it computes in quantities without dimensions, and has no parameter and no input of
+    the system."""
+    code = {name for line in text.splitlines() for name in NAME.findall(_COMMENT.sub("", line))}
     said = set(NAME.findall(program.motion))
-    return _SCALED.search(text) is not None and said.isdisjoint(p.name for p in model.parameters)
+    plain = said.isdisjoint(p.name for p in model.parameters) and code.isdisjoint(u.name for u in model.inputs)
+    return plain and _SCALED.search(text) is not None
 
 
 def equations_of_motion(answer: Answer) -> list[AnswerLine]:
@@ -88,13 +95,15 @@ def _opened(text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
     """Return what ``read`` makes of a program that closes a loop, with its inputs as they are.
 
     `ParseError` if it closes none, or has letters of the system in what it gives an input and no comment with an
-    equation: F = u - k*x may be all forces.
+    equation, or those of a spring or a damper: F = u - k*x may be all forces.
     """
     found = carried_out(text, model, opened=True)
     known = {sp.Symbol(p.name) for p in model.parameters}
+    sizes = [e.k if isinstance(e, Spring) else e.b for e in model.elements if isinstance(e, (Spring, Damper))]
+    acting = {sp.Symbol(str(x)) for size in sizes if size is not None for x in sp.sympify(size).free_symbols}
     if found is None or not found.closed:
         raise ParseError("the program closes no loop", code="E701")
-    if found.text == found.bare and any(letters & known for letters in found.closed.values()):
+    if any(letters & (known if found.text == found.bare else acting) for letters in found.closed.values()):
         raise ParseError("what the program gives its inputs is not read", code="E701")
     answer = _read_steps(found, read)
     names = ", ".join(found.closed)

@@ -10,12 +10,12 @@ from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _RELAXED = re.compile(
     r"(?<!\w)(?:un(?:stretched|stressed|strained|deformed|deflected|loaded|tensioned|twisted)|relaxed|untensioned"
-    r"|(?:force|stress|tension)[ -]?free|(?:no|without|zero)[ \t](?:force|tension|torque|moment|stretch|twist)"
+    r"|(?:force|stress|tension)[ -]?free"
     r"|entspannt|ungespannt|ungedehnt|unverformt|unbelastet|spannungs(?:los|frei)|kraft(?:los|frei)|détendue?)(?!\w)",
     re.IGNORECASE,
 )
 _SENTENCE = re.compile(r"(?:[^.;\n]|\.(?!\s))+")
-_LEFT = re.compile(r"(?<![\w\\*/^+'’′)\]}-])(?P<open>\$?)[ \t]*(?P<name>\\?[^\W\d]\w{0,15}+)[ \t]*&?=(?![=>])[ \t]*")
+_LEFT = re.compile(r"(?<![\w\\*/^+'’′)\]}-])(?P<open>\$[ \t]*+|)(?P<name>\\?[^\W\d]\w{0,15}+)[ \t]*&?=(?![=>])[ \t]*")
 _TOKEN = re.compile(
     r"[ \t]*(?:\\(?P<command>[A-Za-z]+)|(?P<name>[^\W\d_](?:\w|_\{\w{1,8}\})*+)|\d+(?:[.,]\d+)?"
     r"|[-+−–*/·×^²³¼½¾(){}]|\\[,;! ])"
@@ -30,7 +30,7 @@ def without_relaxed(
     written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], notes: dict[str, None]
 ) -> TracedText:
     """Return an answer without the positions of coordinates of the system at which its sentences say that something is
-    relaxed, as notes tell; ``moves``: whether a name changes with time, ``taken``: whether the system has it."""
+    relaxed, as notes tell; ``moves``: whether a name is a coordinate, ``taken``: whether the system has it."""
     found = list(_positions(written.text, moves, taken))
     for start, end, _ in found:
         said = " ".join(written.text[start:end].strip(" \t$").split())
