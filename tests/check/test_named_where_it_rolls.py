@@ -22,7 +22,8 @@ def test_right_lines_beside_a_wrong_energy_are_right() -> None:
     verdict = check("phi = x/R", T.replace("J/R^2", "2 J/R^2"), V, ALONG.replace("J/R^2", "2 J/R^2"), ARM)
     assert [f.status.right for f in verdict.findings] == [True, False, True, False, True]
     assert [f.follows for f in verdict.findings] == [False, False, False, True, False]
-    assert "of rigid body 'reel'" in str(verdict.mistakes[0].what)
+    assert verdict.mistakes[0].element == "rigid body 'reel'"
+    assert "(2*J/R^2 + M + m)*x'^2/2 stands where (J/R^2 + M + m)*x'^2/2 belongs" in str(verdict.mistakes[0].what)
     assert "should be J ẋ²/(2 R²)" in str(verdict) and "does not belong" not in str(verdict)
 
 
