@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from small_systems import mass
 
 import lagrangian as lg
 
@@ -22,18 +23,6 @@ def cart() -> lg.Derivation:
     s.particle(M, at=s.point("C", (x, 0)), name="cart")
     s.particle(m, at=s.point("P", (x + l_ * sp.sin(th), -l_ * sp.cos(th))), name="bob")
     s.gravity((0, -1), g)
-    s.spring(k, deflection=x)
-    s.damper(b, deflection=x)
-    s.force(s.input("F"), deflection=x)
-    return s.derive()
-
-
-@cache
-def mass() -> lg.Derivation:
-    s = lg.System("mass on a spring")
-    x = s.coordinate("x")
-    m, k, b = s.parameters("m k b")
-    s.particle(m, at=s.point("C", (x, 0)), name="mass")
     s.spring(k, deflection=x)
     s.damper(b, deflection=x)
     s.force(s.input("F"), deflection=x)

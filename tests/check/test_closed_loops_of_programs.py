@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from small_systems import mass
 
 import lagrangian as lg
 
@@ -44,18 +45,6 @@ F = @(t,y) -kp*y(1) - kd*y(2);
 f = @(t,y) [y(2); (F(t,y) - b*y(2) - k*y(1))/m];
 [t,y] = ode45(f,[0 10],[1;0]);
 """
-
-
-@cache
-def mass() -> lg.Derivation:
-    s = lg.System("mass on a spring")
-    x = s.coordinate("x")
-    m, k, b = s.parameters("m k b")
-    s.particle(m, at=s.point("C", (x, 0)), name="mass")
-    s.spring(k, deflection=x)
-    s.damper(b, deflection=x)
-    s.force(s.input("F"), deflection=x)
-    return s.derive()
 
 
 @cache

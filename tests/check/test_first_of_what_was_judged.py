@@ -5,29 +5,12 @@ Oracle: by hand, a puck on a spring along a rod that a motor turns; see `test_na
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-import sympy as sp
-
-import lagrangian as lg
+from small_systems import rod
 
 WRONG = "m r'' + m r phi'^2 + k (r - a) = 0"
 SECOND = "(J + m r^2) phi'' + 2 m r r' phi' = M"
 FIRST = "that is the first that is not right."
-
-
-@cache
-def rod() -> lg.Derivation:
-    """A puck on a spring along a rod that a motor turns."""
-    s = lg.System("puck on a rod")
-    r, phi = s.coordinates("r phi")
-    m, J, k, a = s.parameters("m J k a")
-    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="rod"), name="rod")
-    s.particle(m, at=s.point("P", (r * sp.cos(phi), r * sp.sin(phi))), name="puck")
-    s.spring(k, deflection=r, rest=a, name="spring")
-    s.torque(s.input("M"), on=phi, name="motor")
-    return s.derive()
 
 
 def told(answer: str) -> str:

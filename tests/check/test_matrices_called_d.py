@@ -5,25 +5,10 @@ Oracle: a mass on a spring and a damper by hand.
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-
-import lagrangian as lg
+from small_systems import mass
 
 EQUATION = "m x'' + b x' + k x = F"
-
-
-@cache
-def mass() -> lg.Derivation:
-    s = lg.System("mass on a spring")
-    x = s.coordinate("x")
-    m, k, b = s.parameters("m k b")
-    s.particle(m, at=s.point("C", (x, 0)), name="mass")
-    s.spring(k, deflection=x)
-    s.damper(b, deflection=x)
-    s.force(s.input("F"), deflection=x)
-    return s.derive()
 
 
 @pytest.mark.parametrize(

@@ -23,8 +23,11 @@ from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.advice import with_fitting_advice
-from lagrangian.check.explain.as_it_was_written import with_terms_as_written
-from lagrangian.check.explain.as_they_stand import with_terms_as_they_stand, without_shared_signs
+from lagrangian.check.explain.as_they_stand import (
+    with_terms_as_they_stand,
+    with_terms_as_written,
+    without_shared_signs,
+)
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.derivatives_said import with_terms_of_equations

@@ -1,5 +1,6 @@
 """Tells a term as the answer has it: (½ M + m) g s cos θ as it stands there, and not g (½ M a + ½ M b + …) cos θ.
 
+"In the term …" is told of the term that stands in the answer: m r Ω² cos ψ, and not m r Ω² sin ψ in its place.
 Mistakes are found in terms of the right equations, which have the signs and the factors of our own form; what differs
 is compared with what was written.
 """
@@ -30,10 +31,36 @@ CONTRIBUTES = " contributes"
 """What is said of a moment of inertia, of which more is known than its letter."""
 LONGEST = 120
 """A term with more operations is told as it is."""
+OPENINGS = ("In the term ", "in the term ")
+"""How the words end behind which the right term of a difference stands."""
 TOLD = (THE_TERM, THE_TERM.lower(), " should be ", " stands where ")
 """How the words end after which a term is told."""
 SIGN = 1
 """How many more operations a term may have with the sums of what is written."""
+
+
+def with_terms_as_written(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict, in which sentences on what is wrong in a term name it as it stands in a wrong line."""
+    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    differences = [d for f in roots for d in f.differences if d.written != 0 and d.kind not in ("missing", "extra")]
+    if not differences:
+        return verdict
+    told, others = (tuple(_quoted(truth, m, differences) for m in x) for x in (verdict.mistakes, verdict.alternatives))
+    return replace(verdict, mistakes=told, alternatives=others)
+
+
+def _quoted(truth: Reference, mistake: Mistake, differences: Sequence[TermDifference]) -> Mistake:
+    """A mistake whose first term is the right one of a difference, with the one that was written."""
+    first, *more = mistake.what.parts
+    term = more[0] if more else None
+    if not (isinstance(first, str) and first.endswith(OPENINGS) and isinstance(term, sp.Expr)):
+        return mistake
+    own = [d for d in differences if mistake.coordinate in (None, d.coordinate)]
+    signs = (sp.S.One, sp.S.NegativeOne)
+    if any(zero_everywhere(truth, d.written - s * term) for d in differences for s in signs):
+        return mistake
+    found = [cast("sp.Expr", s * d.written) for d in own for s in signs if zero_everywhere(truth, d.term - s * term)]
+    return replace(mistake, what=text(first, found[0], *more[1:])) if len(found) == 1 else mistake
 
 
 def with_terms_as_they_stand(truth: Reference, verdict: Verdict) -> Verdict:

@@ -17,6 +17,7 @@ from lagrangian.check.align import LARGEST, Alignment
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.right_terms import RightTerm
 from lagrangian.check.explain.search import SMALL
+from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
 MOST_PARTS = 5
@@ -61,5 +62,5 @@ def _chosen(right: Array, rest: Array) -> list[int]:
     numbers, _, rank, _ = np.linalg.lstsq(right.T, rest, rcond=None)
     held = np.round(numbers)
     sums = rank == len(right) and np.isin(held, (0.0, 1.0)).all()
-    close = sums and np.abs(held @ right - rest).max() <= SMALL * np.abs(rest).max()
+    close = sums and same_values(held @ right, rest, SMALL)
     return [int(k) for k in np.flatnonzero(held)] if close else []

@@ -18,7 +18,7 @@ from lagrangian.check.align import alignments
 from lagrangian.check.explain.derivative_lines import LONGEST, replaced
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.rows import same_values, zero_everywhere
 from lagrangian.check.stated import given
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
@@ -84,6 +84,6 @@ def follow_from_rates(truth: Reference, findings: Sequence[Finding]) -> list[Fin
     for f, P in zip(rows, values, strict=True):
         above = [x for w, x in zip(wrong, extra, strict=True) if w.line.number <= f.line.number]
         for a in alignments(truth, [f.line.expr], P[None]) if np.isfinite(P).all() else ():
-            if any(np.abs(a.rest[0] * rate + x).max() <= SMALL * np.abs(x).max() for x in above):
+            if any(same_values(-a.rest[0] * rate, x, SMALL) for x in above):
                 follow.add(id(f))
     return [replace(f, follows=True) if id(f) in follow else f for f in findings]

@@ -42,7 +42,6 @@ SAME = frozenset(
 """Names of mistakes in one element of which the first says no more than the second."""
 _MADE_IN = re.compile(r"\bIn the (?P<what>height|position|velocity) of (?P<of>[^,:]{1,80}'[^']{1,60}')")
 """Where a mistake was made, in words: the height of particle 'bob'."""
-_HEIGHT_OF = re.compile(r"In the height of (?P<title>[a-z ]{3,30}'[^']{1,60}')")
 SECOND = " Or: "
 """What stands before a second reason."""
 
@@ -131,8 +130,9 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         return True
     if mistake.name == ANOTHER_FACTOR and mistake.element == other.element:
         return True
-    if other.name == "gravity_forgotten" and (body := _HEIGHT_OF.match(str(mistake.what))) is not None:
-        return f"he weight of {body['title']} " in str(other.what)  # no height was written
+    made = _MADE_IN.match(str(mistake.what)) if other.name == "gravity_forgotten" else None
+    if made is not None and made["what"] == "height":
+        return f"he weight of {made['of']} " in str(other.what)  # no height was written
     if (mistake.name, other.name) in SAME and mistake.element == other.element:
         return True
     if _family(mistake) != _family(other):
