@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import sympy as sp
@@ -17,6 +18,7 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 ROUNDED = 0.005
@@ -37,18 +39,22 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     if sum(lines[k].kind == "equation" for k in numeric) >= truth.n:  # V = 3/2 s² beside equations in numbers
         judged = [k for k in range(len(lines)) if said[k]]
         numeric = numeric if any(lines[k].expr.free_symbols & known for k in judged) else judged
-    lettered = [k for k in range(len(lines)) if k not in numeric]
+    valued = [k for k, line in enumerate(lines) if k not in numeric and _gives_value(truth, line)]
+    lettered = [k for k in range(len(lines)) if k not in numeric and k not in valued]
     whole, moved = (sum(lines[k].kind == "equation" and said[k] for k in x) >= truth.n for x in (lettered, numeric))
     numbers = [lines[k] for k in numeric]
     values = values_of(truth, numbers)
+    numbers = [lines[k] if k in numeric else _with_values(lines[k], values) for k in sorted([*numeric, *valued])]
     if (
         not numeric
-        or not lettered
+        or not (lettered or valued)
         or not (whole or moved)
         or not values
         or any(bounded.symbols(x.expr) - {time} - truth.prescribed for x in numbers)
     ):
         return None
+    if not lettered:
+        return _in_values(truth, numbers, values, judge)
     first = judge(truth, [lines[k] for k in lettered])
     if first.status is Status.INCOMPLETE and whole:
         return None
@@ -78,6 +84,18 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         hint=first.hint,
         sure=wrong.sure,
     )
+
+
+def _gives_value(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line gives a quantity of the system, which is defined in letters, in numbers: rho = 0.5 + 0.94 s."""
+    constants = {key(p.name) for p in truth.model.parameters}
+    decimals = any(x.q != 1 for x in bounded.atoms(line.expr, sp.Rational))
+    known = any(d.name == line.name for d in truth.model.definitions)
+    return line.kind == "identity" and known and decimals and constants.isdisjoint(line.names)
+
+
+def _with_values(line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> AnsweredLine:
+    return replace(line, expr=cast("sp.Expr", line.expr.xreplace(values)))
 
 
 def _in_values(

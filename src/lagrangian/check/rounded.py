@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference, truth_of
-from lagrangian.check.rounded_terms import in_exact_terms
+from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
@@ -54,9 +54,10 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
             table |= {x: meant, -x: -meant}
     sizes = {float(abs(cast("Any", x))) for x in table}
     put: list[AnsweredLine] = []
+    typed = typed_in_names(lines)
     for line in lines:
-        expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)))
-        read, more = in_exact_terms(truth, replace(line, expr=expr))
+        expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)), typed)
+        read, more = in_exact_terms(truth, replace(line, expr=expr), typed)
         put.append(read)
         sizes |= few | more
     told = sorted(sizes)
@@ -100,7 +101,7 @@ def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     return False
 
 
-def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
+def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -> tuple[sp.Expr, set[float]]:
     """The one of the right lines that a line is, but for forces of constraints, if every number that differs is rounded
     from what stands there, and the sizes of these numbers; otherwise the line itself and none."""
     if not expr.atoms(sp.Rational) or bounded.operations(expr) > LONGEST:
@@ -111,6 +112,8 @@ def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
     if not all(map(_is_finite, own.values())):
         return expr, set()
     found, sizes = _right_sums(own, partial(_right_lines, truth))
+    if not sizes and typed and not forces:
+        found, sizes = within_rounding(expr, typed, _right_lines(truth)) or (found, sizes)
     return (sp.Add(*(k * x for k, x in (found | forces).items())), sizes) if sizes else (expr, sizes)
 
 

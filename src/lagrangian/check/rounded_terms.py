@@ -7,9 +7,11 @@ it, and so are those of a line in which another term is wrong.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import count, islice
 from typing import Any, cast
 
 import sympy as sp
@@ -29,7 +31,15 @@ MOST_TERMS = 40
 """The most terms of such a line when it is multiplied out."""
 FEWEST_RIGHT = 2
 """The fewest terms by which an equation is one of the right ones."""
+LONGEST_TYPED = 4
+"""The most digits of a decimal that is taken as typed, and not as a product of one that is typed elsewhere."""
+MOST_POWER = 3
+LONGEST = 400
+"""The most operations of a line whose numbers are sought so."""
+EXACT = 1e-12
+MOST_PLACES = 60
 SLACK = 1 + 1e-9
+_DECIMAL = re.compile(r"(?<![\w.])\d{1,9}\.\d{2,12}(?![\w.])|(?<![\w.])\d{1,9}\.\d{2,12}(?=[^\W\d])")
 
 Vector = dict[Any, Fraction]
 
@@ -58,9 +68,12 @@ class TermWritten:
         return signed if abs(float(self.value - signed)) <= self.off * SLACK else self.value
 
 
-def in_exact_terms(truth: Reference, line: AnsweredLine) -> tuple[AnsweredLine, set[float]]:
-    """A line with its rounded numbers replaced by what they are rounded from, and the sizes of these numbers."""
-    opened, numbers = _opened(line.expr)
+def in_exact_terms(
+    truth: Reference, line: AnsweredLine, typed: Sequence[sp.Rational] = ()
+) -> tuple[AnsweredLine, set[float]]:
+    """A line with its rounded numbers replaced by what they are rounded from, and the sizes of these numbers; ``typed``
+    are the decimals of names that it may use."""
+    opened, numbers = _opened(line.expr, typed)
     written = _terms(opened, numbers) if 0 < len(numbers) <= MOST_NUMBERS else None
     if not written or len(written) > MOST_TERMS or all(x.off == 0 for x in written.values()):
         return line, set()
@@ -78,6 +91,51 @@ def in_exact_terms(truth: Reference, line: AnsweredLine) -> tuple[AnsweredLine, 
     letters = set[sp.Basic]().union(*(written[k].number.free_symbols for k in changed))
     sizes = {abs(float(n.value)) for n in numbers if n.letter in letters}
     return replace(line, expr=_as_written(opened, numbers, written, best[1])), sizes
+
+
+def within_rounding(
+    expr: sp.Expr, typed: Sequence[sp.Rational], rights: Sequence[Mapping[sp.Expr, sp.Expr]]
+) -> tuple[dict[sp.Expr, sp.Expr], set[float]] | None:
+    """The one of ``rights``, or its opposite, of which every number is what stands there within the rounding of the
+    decimals from which it is multiplied out, and the sizes of these decimals; None if there is none."""
+    opened, numbers = _opened(expr, typed)
+    if not 0 < len(numbers) <= MOST_NUMBERS or bounded.operations(opened) > LONGEST:
+        return None
+    written = _sums_written(opened, numbers)
+    for right in rights:
+        if written is None or right.keys() != written.keys():
+            continue
+        for sign in (1, -1):
+            far = {k: abs(value - sign * float(right[k])) for k, (value, _, _) in written.items()}
+            if all(far[k] <= off * SLACK for k, (_, off, _) in written.items()):
+                rounded = set[Any]().union(*(x for k, (v, _, x) in written.items() if far[k] > EXACT * abs(v)))
+                read = [n.value for n in numbers if n.letter in rounded]
+                decimals = [x for x in read if x.q != 1] or read
+                return {k: sign * x for k, x in right.items()}, {abs(float(x)) for x in decimals}
+    return None
+
+
+def _sums_written(
+    opened: sp.Expr, numbers: Sequence[NumberWritten]
+) -> dict[sp.Expr, tuple[float, float, set[Any]]] | None:
+    """What moves in the terms of a line, with its number, how far this may be off and the letters of its decimals; None
+    if one has no size."""
+    letters = {n.letter: n for n in numbers}
+    table = {n.letter: n.value for n in numbers}
+    sums: dict[sp.Expr, sp.Expr] = {}
+    for term in sp.Add.make_args(bounded.expand(opened)):
+        still, moving = _parts(term, letters)
+        sums[moving] = sums.get(moving, sp.S.Zero) + still
+    found: dict[sp.Expr, tuple[float, float, set[Any]]] = {}
+    for moving, number in sums.items():
+        value = number.xreplace(table)
+        if not value.is_number or not value.is_finite or not value.is_real:
+            return None
+        slopes = {x: sp.diff(number, x).xreplace(table) for x in number.free_symbols & letters.keys()}
+        off = sum(abs(float(slope)) * letters[x].half for x, slope in slopes.items())
+        if abs(float(value)) > 0:
+            found[moving] = float(value), off + EXACT * abs(float(value)), set(slopes)
+    return found
 
 
 def _rights(truth: Reference, line: AnsweredLine) -> Iterator[Vector]:
@@ -104,14 +162,50 @@ def _vector(truth: Reference, expr: sp.Expr) -> Vector | None:
 # -- the numbers of a line --------------------------------------------------------------------------------------------
 
 
-def _opened(expr: sp.Expr) -> tuple[sp.Expr, list[NumberWritten]]:
+def typed_in_names(lines: Sequence[AnsweredLine]) -> list[sp.Rational]:
+    """The decimals that definitions of an answer have: 0.93969 of rho = 0.5 + 0.93969 s."""
+    texts = [line.text for line in lines if line.kind in ("definition", "identity")]
+    found = dict.fromkeys(m.group() for x in texts for m in islice(_DECIMAL.finditer(x), MOST_NUMBERS))
+    rational = [cast("sp.Rational", sp.Rational(x)) for x in islice(found, MOST_NUMBERS)]
+    return [x for x in rational if x.q != 1 and _unit(x)]
+
+
+def _parted(number: sp.Rational, typed: Sequence[sp.Rational]) -> tuple[sp.Rational, sp.Rational, int]:
+    """A decimal as a shorter one times a power of a decimal that was typed, which is 0 where it is not made so: 75.175
+    times 0.93969."""
+    long = _digits(number)
+    ways = [(number / x**p, x, p) for x in typed for p in range(1, MOST_POWER + 1)] if long > LONGEST_TYPED else []
+    short = [(way, _digits(way[0])) for way in ways]
+    fitting = [(count, way) for way, count in short if 0 < count <= long - 2 * way[2]]
+    best = min(fitting, key=lambda x: (x[0], x[1][2]), default=(0, (number, sp.S.One, 0)))
+    return cast("tuple[sp.Rational, sp.Rational, int]", best[1])
+
+
+def _digits(x: sp.Rational) -> int:
+    """How many digits a decimal has; 0 for a number that is none."""
+    below, power = int(x.q), 0
+    while below % 10 == 0:
+        below, power = below // 10, power + 1
+    twos, fives = (next(k for k in count() if below % p ** (k + 1)) for p in (2, 5))
+    places = power + max(twos, fives)
+    finite = below == 2**twos * 5**fives and places < MOST_PLACES
+    return len(str(abs(int(x.p)) * 10**places // int(x.q)).lstrip("0") or "0") if finite else 0
+
+
+def _opened(expr: sp.Expr, typed: Sequence[sp.Rational] = ()) -> tuple[sp.Expr, list[NumberWritten]]:
     """An expression with a letter for every decimal in its sums and products, and these decimals."""
     numbers: list[NumberWritten] = []
 
+    def lettered(x: sp.Rational) -> sp.Expr:
+        if not (half := _half_unit(cast("sp.Rational", abs(x)))):
+            return x
+        numbers.append(NumberWritten(x, sp.Dummy(), half))
+        return numbers[-1].letter
+
     def walk(x: Any) -> Any:
-        if isinstance(x, sp.Rational) and (half := _half_unit(abs(x))):
-            numbers.append(NumberWritten(x, sp.Dummy(), half))
-            return numbers[-1].letter
+        if isinstance(x, sp.Rational):
+            first, other, power = _parted(x, typed) if typed else (x, x, 0)
+            return lettered(first) * lettered(other) ** power if power else lettered(x)
         if isinstance(x, sp.Add | sp.Mul):
             return x.func(*[walk(y) for y in x.args])
         if isinstance(x, sp.Pow):
@@ -137,15 +231,20 @@ def _unit(x: Any) -> float:
     return 10.0**-places if below == 1 and places < 30 and len(digits) >= FEWEST_DIGITS else 0.0
 
 
+def _parts(term: sp.Expr, letters: Mapping[sp.Symbol, NumberWritten]) -> tuple[sp.Expr, sp.Expr]:
+    """The number of a term, in the letters put for decimals, and what moves in it."""
+    factors = sp.Mul.make_args(term)
+    still = [f for f in factors if f.free_symbols <= letters.keys() and not f.has(AppliedUndef, sp.Derivative)]
+    return cast("sp.Expr", sp.Mul(*still)), cast("sp.Expr", sp.Mul(*[f for f in factors if f not in still]))
+
+
 def _terms(opened: sp.Expr, numbers: Sequence[NumberWritten]) -> dict[sp.Expr, TermWritten] | None:
     """What moves in the terms of a line, with its numbers; None if some are no rational numbers."""
     letters = {n.letter: n for n in numbers}
     sums: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(bounded.expand(opened)):
-        factors = sp.Mul.make_args(term)
-        still = [f for f in factors if f.free_symbols <= letters.keys() and not f.has(AppliedUndef, sp.Derivative)]
-        moving = cast("sp.Expr", sp.Mul(*[f for f in factors if f not in still]))
-        sums[moving] = sums.get(moving, sp.S.Zero) + sp.Mul(*still)
+        still, moving = _parts(term, letters)
+        sums[moving] = sums.get(moving, sp.S.Zero) + still
     table = {n.letter: n.value for n in numbers}
     found: dict[sp.Expr, TermWritten] = {}
     for moving, number in sums.items():

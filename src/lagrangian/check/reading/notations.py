@@ -26,6 +26,7 @@ from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.layout import with_open_text
+from lagrangian.check.reading.latex.said_names import with_named_formulas
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
@@ -150,6 +151,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
+        said = with_named_formulas(said, taken)
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said.sub(_ROW_OF, lambda _: ""))))
     else:

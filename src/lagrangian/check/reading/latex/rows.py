@@ -67,6 +67,12 @@ _NAME_BEFORE = re.compile(
     re.DOTALL | re.IGNORECASE,
 )
 """The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F, \\phi-equation: …"""
+_TAGGED = r"\(\s*(?:\\[A-Za-z]{2,12}|[^\W\d_])(?:\s?_\s?(?:\w|\\[A-Za-z]{2,12}|\{\s?\\?\w{1,8}\s?\}))?['’′]*\s*\)"
+_TAG_BEFORE = re.compile(
+    rf"{_SPACE}{_TAGGED}(?:\s*[-+]\s*{_TAGGED}){{0,4}}\s*(?:&|\\q?quad(?![A-Za-z]))(?={_SPACE}[^\s=+*/^])(?=.*=)",
+    re.DOTALL,
+)
+"""The name of an equation in brackets, or of those that were added, apart from it: (E_x)+(E_u)\\quad& …"""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
@@ -246,7 +252,7 @@ def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
 
 def _labels(piece: str) -> str:
     """Blank out arrows, and numbers of equations before and after a statement."""
-    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _ARROW):
+    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _TAG_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
     end = _content_end(piece)

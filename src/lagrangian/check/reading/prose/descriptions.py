@@ -135,13 +135,16 @@ def is_spoken(word: str, words: Words) -> bool:
 
 _DONE_TO_ALL = re.compile(r"\s*+[×·*:/÷|]\s*+[^\W_]\w{0,11}\s*+\Z")
 """What was done to the equations: × 6, : m."""
+_UNITS = re.compile(r"\s*+(?:(?:all|everything)\s++)?(?:in\s++)?(?P<name>SI|MKS|CGS|cgs)(?:[ -]units?)?\s*+")
+"""The units of all numbers."""
 _SIGNS = re.compile(r"[-=+*/^()\[\]{}'’′″²³·×−\u0307\u0308\u20db]")
 
 
 def says_nothing(text: str, words: Words) -> bool:
     """Whether a part of a line consists of words, or is a sentence that holds no statement, the terms are m l² θ''; a
     note tells one with numbers or products: friction 5 k."""
-    if _DONE_TO_ALL.match(text):
+    units = _UNITS.fullmatch(text)
+    if _DONE_TO_ALL.match(text) or (units is not None and not words.is_name(units["name"])):
         return True
     listed = re.findall(r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]+(?:['’-][^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]+)*", text)
     spoken = [is_common(x, words) or is_word(x, words) for x in listed]

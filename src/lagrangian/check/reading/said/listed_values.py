@@ -21,6 +21,12 @@ _VALUE = re.compile(
     r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:(?:[ \t]|[ ]?[/·*][ ]?)?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
+_AMOUNT = r"\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+"
+_UNIT = r"[ \t]*+(?:°|[^\W\d_]++(?:(?:[ \t]|[ ]?[/·*][ ]?)?[^\W_]++){0,4}(?![\w²³(]))"
+_AGAIN = re.compile(
+    rf"=[ \t]*+(?P<number>{_AMOUNT})(?P<unit>{_UNIT})[ \t]*+(?==[ \t]*+(?P<same>{_AMOUNT})(?P<other>{_UNIT}))"
+)
+"""A value that is given once more in another unit: e = 120 mm = 0.12 m."""
 _FACTOR = re.compile(
     rf"(?:(?<![\w.])(?P<name>{_NAME})|(?<![\w.,^])\d{{1,6}}|\((?P<sum>[\w \t+*/·−-]{{1,40}})\))(?:\^\d|[²³])?"
     r"(?:[ ]?[*·/+−-])?[ ]?\Z"
@@ -58,7 +64,8 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
     ``values`` returns the value of a parameter of the system, NaN for one without a value, and None for other names.
     """
     lines = _with_exponents(text).split("\n")
-    for k, line in enumerate(lines):
+    for k, typed in enumerate(lines):
+        line = _AGAIN.sub(_in_last_unit, typed) if typed.count("=") > FEWEST else typed
         if line.count("=") < FEWEST:
             continue
         found = list(_VALUE.finditer(line))
@@ -77,6 +84,16 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         lines[k] = "".join(kept)
         notes.setdefault(f"Line {k + 1} was read as a list of values.")
     return "\n".join(lines)
+
+
+def _in_last_unit(match: re.Match[str]) -> str:
+    """Blanks for a value that is given again in another unit; the value as it stands if the two differ."""
+    factors = [_factor(match["unit"]), _factor(match["other"])]
+    if factors[0] is None or factors[1] is None:
+        return match.group()
+    first, second = (float(x.replace(",", ".")) for x in (match["number"], match["same"]))
+    same = isclose(first * factors[0], second * factors[1], rel_tol=1e-3)
+    return " " * len(match.group()) if same else match.group()
 
 
 def _starts(line: str, found: Sequence[re.Match[str]], values: Callable[[str], float | None]) -> list[int]:

@@ -49,7 +49,7 @@ _STANDS = (
 )
 _IS = r"(?P<stands>denotes|means|is|bezeichnet|bedeutet|ist)"
 _LINK = r"[ \t\n]{0,9}(?:=|:|[–—-]|\bis\b|\bist\b|\bfor\b|\bfür\b|\bdenotes\b|\bbezeichnet\b)[ \t\n]{1,9}"
-_GIVEN = re.compile(r"(?<![\w*/+^-])\\?(?P<left>[^\W\d]\w{0,15})[ \t]*=(?P<right>[^=\n;]{1,80})")
+_GIVEN = re.compile(r"(?<![\w*/+^-])\\?(?P<left>[^\W\d]\w{0,15})[ \t]*=(?=(?P<right>[^=\n;]{1,80}))")
 _ANY_NAME = re.compile(r"\\?[^\W\d]\w{0,15}")
 _REST = r"(?P<rest>[^\0]{1,160})\Z"
 
@@ -199,10 +199,11 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
 
 
 def _is_related(text: str, letter: DeclaredLetter) -> bool:
-    """Whether an answer says how a letter gives what it would stand for: x = r φ, so that φ is another quantity."""
+    """Whether an answer says how a letter and what it would stand for give each other: x = r φ, h = z - l sin θ."""
+    same = {key(letter.own), key(letter.new)}
     for match in _GIVEN.finditer(text):
-        names = [key(undotted(word.lstrip("\\"))[0]) for word in _ANY_NAME.findall(match["right"])]
-        if key(match["left"]) == key(letter.own) and key(letter.new) in names and len(names) > 1:
+        names = {key(undotted(word.lstrip("\\"))[0]) for word in _ANY_NAME.findall(match["right"])}
+        if key(match["left"]) in same and len(names) > 1 and same & names == same - {key(match["left"])}:
             return True
     return False
 

@@ -1,0 +1,90 @@
+r"""Names that an answer in LaTeX gives otherwise than by a formula of its own: below a brace, and in a sentence.
+
+\underbrace{(J + m l^2)}_{\Theta} \ddot\theta = …        $\Theta = (J + m l^2)$ in front, where \Theta is used again
+$S$ = tension in the hitch $= k u + c\dot u$              tension in the hitch $S = k u + c\dot u$
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import islice
+
+from lagrangian.check.reading.latex.layout import closing
+from lagrangian.check.reading.traced_text import Edit, TracedText
+
+MOST = 40
+"""The most braces, and sentences, that are looked at."""
+LONGEST = 400
+"""The most characters of what stands above a brace."""
+
+_NAME = r"\\?[^\W\d_][A-Za-z]{0,11}(?:_(?:\w|\{\w{1,8}\}|\\[A-Za-z]{2,8}))?(?![\w_{])"
+_BRACE = re.compile(r"\\under(?:brace|bracket)\s{0,3}(?=\{)")
+_LABEL = re.compile(
+    rf"\s{{0,3}}_\s{{0,3}}(?:\{{\s*(?:=?:?=|\\equiv|:=)?\s*(?P<braced>{_NAME})\s*(?::?=|=:)?\s*\}}|(?P<bare>\w))"
+)
+_DISPLAY = re.compile(
+    r"\\begin\{(?P<kind>equation|align|gather|multline|eqnarray|flalign|alignat|displaymath)\*?\}|\\\[|\$\$|\n[ \t]*\n"
+)
+_IN_WORDS = re.compile(
+    rf"\$(?P<new>{_NAME})\$[ \t]*+(?:=|:|is\b|denotes\b|means\b)?[ \t]*+"
+    r"(?P<words>(?:[^\W\d_][^\W\d_’'-]{1,20}[ \t]++){1,8})\$(?P<sign>[ \t]*+=)(?![=>])"
+)
+"""A name, words that say what it is, and its value in a formula of its own."""
+
+
+def with_named_formulas(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in LaTeX in which such names stand in front of their formulas; ``taken`` says whether a name
+    belongs to the system."""
+    return _with_named_braces(_with_names_in_words(written, taken), taken)
+
+
+def _with_names_in_words(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    edits: list[Edit] = []
+    for match in islice(_IN_WORDS.finditer(written.text), MOST):
+        if taken(_bare(match["new"])) or _is_given(written.text, match["new"]):
+            continue
+        edits.append((match.start(), match.start("words"), " "))
+        edits.append((*match.span("sign"), f"{match['new']} ="))
+    return written.edited(edits)
+
+
+def _with_named_braces(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """An answer in which a name below a brace that is used elsewhere is stated in front of the display."""
+    text, edits, named = written.text, dict[int, str](), set[str]()
+    for match in islice(_BRACE.finditer(text), MOST):
+        end = closing(text, match.end() + 1)
+        label = _LABEL.match(text, end)
+        if label is None or end - match.end() > LONGEST:
+            continue
+        name, inside = label["braced"] or label["bare"], text[match.end() + 1 : end - 1]
+        if name in named or taken(_bare(name)) or "=" in inside or _is_given(text, name):
+            continue
+        others = text[: label.start()] + text[label.end() :]
+        if re.search(rf"(?<![\w\\]){re.escape(name)}(?![A-Za-z_])", others) is None:
+            continue
+        named.add(name)
+        at = _front(text, match.start())
+        edits[at] = f"{edits.get(at, '')}${name} = {inside}$\n"
+    return written.edited((at, at, said) for at, said in edits.items())
+
+
+def _front(text: str, place: int) -> int:
+    """Where the display, or the paragraph, begins in which a place stands."""
+    at = 0
+    for match in _DISPLAY.finditer(text, 0, place):
+        opens = match["kind"] is not None or match.group() == "\\["
+        at = match.start() if opens else match.end() if match.group().isspace() else at
+        if match.group() == "$$" and text.count("$$", 0, match.end()) % 2 == 1:
+            at = match.start()
+    return at
+
+
+def _is_given(text: str, name: str) -> bool:
+    """Whether a formula gives a name its value."""
+    return re.search(rf"(?<![\w\\]){re.escape(name)}\s*&?\s*:?=(?!=)", text) is not None
+
+
+def _bare(name: str) -> str:
+    """A name as the system may spell it: \\Theta_O is Theta_O."""
+    return name.replace("\\", "").replace("{", "").replace("}", "")
