@@ -21,6 +21,7 @@ from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.rates_of_energies import follow_from_rates
 from lagrangian.check.explain.row_words import findings_of, name_of
+from lagrangian.check.forces_in_parts import with_forces_in_parts
 from lagrangian.check.moving_frame import with_effective_potential, with_hamiltonian
 from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
@@ -84,6 +85,7 @@ def judged_lines(
     findings, named = without_own_names(truth, lines, findings)
     aside = (*called, *aside, *named)
     if change is None:
+        findings = with_forces_in_parts(truth, findings)
         findings = with_effective_potential(truth, findings, motion=of_equations(truth, comparison).right)
         findings = follow_from_derivatives(truth, right_together(truth, with_right_derivatives(truth, findings)))
         findings = follow_from_definitions(

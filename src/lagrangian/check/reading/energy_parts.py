@@ -60,7 +60,7 @@ _TWICE = re.compile(r"['’′]{2}|[\u0308″¨]|\\ddot|ddot|dd\b")
 _UMLAUT = re.compile("(?<=[A-Za-z])[äëïöü]|[ÄÖÜäëïöü](?=[A-Za-zß])")
 _SQUARE = re.compile(r"²|\^\s?\{?2|\*\*\s?2")
 _HALF = re.compile(r"½|\b1\s?/\s?2\b|\b0[.,]5|/\s?2\b|\\frac|[⅐-⅞¼¾]|\b1\s?/\s?\d")
-_NAME = re.compile(r"\\?[^\W\d½¼¾⅐-⅞⁰-⁹¹²³](?:\w|[\u0307\u0308]){0,24}")
+_NAME = re.compile(r"\\?[^\W\d½¼¾⅐-⅞⁰-⁹¹²³](?:[^\W½¼¾⅐-⅞⁰⁴-⁹¹²³]|[\u0307\u0308]){0,24}")
 _FORMULA = re.compile(r"[\w\s.,+\-−–*·×/^()\[\]{}'’′²³½¼⅐-⅞¾\\|⋅∙\u0307]{2,300}")
 _OTHER = re.compile(
     r"damp|dissip|rayleigh|dämpf|amort|reib|fricti|loss|verlust|lagrang|power|leistung|work|arbeit|total|sum|gesamt"
@@ -90,6 +90,8 @@ _DEFINED = re.compile(r"([^\W\d]\w{0,24})[ \t]*+(?:(?:²|\^2)[ \t]*+)?=(?![=>])"
 _CELL = re.compile(r"\|")
 _RULE = re.compile(r"[-+=| \t:]+")
 _WORD = re.compile(r"[^\W\d_]{2,24}")
+_NOTHING = frozenset("-–—−/")
+"""What stands in a table where something has no such energy."""
 
 
 def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[str], bool]) -> TracedText:
@@ -232,6 +234,8 @@ class _Parts:
             inside = text[a:b].strip()
             math = inside.startswith("$") and inside.endswith("$") and inside.count("$") == 2
             value = inside.strip("$ ")
+            if kind is not None and value in _NOTHING:
+                yield at + a, at + b, " "
             if kind is None or "=" in value or math != self.latex or not self._is_energy(kind, value):
                 continue
             place = at + text.index(value, a)
