@@ -44,9 +44,8 @@ from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spel
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
-from lagrangian.check.reading.renamed import renamed, restored
+from lagrangian.check.reading.renamed import read_in_own_letters
 from lagrangian.check.reading.said.listed_values import without_values
-from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -111,22 +110,13 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
-    read = partial(_declared, model=model, place=place)
+    read = partial(read_in_own_letters, model=model, read=partial(_parsed, place=place))
     program = carried_out(text, model)
     if program is not None:
         return read_program(program, text, model, read)
     found = without_sums_of_loops(text, read)
     beside = told_beside_comments(text, [x.place for x in equations_of_motion(found)])
     return replace(found, notes=(*beside, *found.notes))
-
-
-def _declared(text: str, model: Model, place: Place | None) -> Answer:
-    """The content of an answer, in whose sentences names of the system may be renamed."""
-    said = declarations(text, model)
-    if not said.names:
-        found = _parsed(said.text, model, place)
-        return replace(found, notes=(*said.notes, *found.notes))
-    return restored(_parsed(said.text, renamed(model, said.names), place), model, said.names, said.notes)
 
 
 def _parsed(text: str, model: Model, place: Place | None) -> Answer:

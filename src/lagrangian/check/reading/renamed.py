@@ -5,30 +5,62 @@ It is read with a system that has these names; the symbols of the lines are thos
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar
 
 import sympy as sp
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.placeholders import generalized_force
+from lagrangian.check.reading.said.own_names import declarations
+from lagrangian.check.reading.said.own_parameters import own_letters_of
+from lagrangian.errors import ParseError
 from lagrangian.model import Coordinate, Definition, Input, Model, Parameter
 from lagrangian.read.letters import key
 
 Named = TypeVar("Named", Coordinate, Parameter, Input, Definition)
 
 
-def renamed(model: Model, names: Mapping[str, str]) -> Model:
+def read_in_own_letters(text: str, model: Model, read: Callable[[str, Model], Answer]) -> Answer:
+    """The content of an answer, in whose sentences names of the system may be renamed, and which may use letters of
+    parameters for what changes with time."""
+    said = declarations(text, model)
+    own = own_letters_of(said.text, model)
+    free = set(own.may) - said.names.keys() - set(said.names.values())
+
+    def parsed(hidden: frozenset[str]) -> Answer:
+        notes = (*said.notes, *(f"{x} was read as your own: you give it a value that moves." for x in sorted(hidden)))
+        if not said.names and not hidden:
+            found = read(said.text, model)
+            return replace(found, notes=(*notes, *found.notes))
+        return restored(read(said.text, renamed(model, said.names, hidden)), model, said.names, notes)
+
+    more = own.sure | free
+    try:
+        found = parsed(own.sure)
+    except ParseError:
+        if not free:
+            raise
+        try:
+            return parsed(more)
+        except ParseError:
+            pass
+        raise
+    return replace(found, others=(*found.others, partial(parsed, more))) if free else found
+
+
+def renamed(model: Model, names: Mapping[str, str], hidden: Collection[str] = ()) -> Model:
     """Return a system whose quantities have other names, and the same symbols.
 
-    One whose letter another takes, and that gets none, keeps a name that no answer writes.
+    One whose letter another takes, or that is ``hidden``, and that gets none, keeps a name that no answer writes.
     """
-    taken = {key(x) for x in names.values()}
+    taken = {key(x) for x in (*names.values(), *hidden)}
 
     def named(x: Named) -> Named:
-        hidden = f"{x.name} of the system" if key(x.name) in taken else x.name
-        return replace(x, name=names.get(x.name, hidden))
+        kept = f"{x.name} of the system" if key(x.name) in taken else x.name
+        return replace(x, name=names.get(x.name, kept))
 
     return replace(
         model,
