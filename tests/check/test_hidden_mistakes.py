@@ -19,11 +19,34 @@ def told(answer: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("∂V/∂theta = -m g l sin(theta)", "∂V/∂theta = m g l sin(theta)"),
+        ("dT/dtheta = -m l x' theta' sin(theta)", "dT/dtheta = 0"),
+        ("∂T/∂x' = (M + m) x' + m l theta' cos(theta)", "∂T/∂x' = M x' + m l theta' cos(theta)"),
+        ("dD/dx' = b x'", "dD/dx' = 2 b x'"),
+    ],
+)
+def test_a_derivative_of_an_energy_that_no_line_states_is_judged(right: str, wrong: str) -> None:
+    assert told(f"{right}\n{ROWS}") == []
+    found = CART.check(f"{wrong}\n{ROWS}")
+    assert not found.right and found.first_wrong is not None and found.first_wrong.line.number == 1
+
+
+def test_equations_use_the_derivatives_that_an_answer_gives() -> None:
+    """J φ̈ + ∂V/∂φ = M says nothing by itself: with a wrong ∂V/∂φ above or below it, the motion is wrong."""
+    rows = "(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F\n"
+    rows += "m l x'' cos(theta) + (J + m l^2) theta'' + ∂V/∂theta = 0\n"
+    right, wrong = "∂V/∂theta = -m g l sin(theta)\n", "∂V/∂theta = -m g l cos(theta)\n"
+    assert CART.check(right + rows).right and CART.check(rows + right).right
+    for answer, line in ((wrong + rows, 1), (rows + wrong, 2)):
+        found = CART.check(answer)
+        assert found.status.name == "WRONG" and line in {f.line.number for f in found.findings if not f.status.right}
+
+
+@pytest.mark.parametrize(
     ("right", "wrong", "energy"),
     [
-        ("∂V/∂theta = -m g l sin(theta)", "∂V/∂theta = m g l sin(theta)", "V"),
-        ("dT/dtheta = -m l x' theta' sin(theta)", "dT/dtheta = 0", "T"),
-        ("dD/dx' = b x'", "dD/dx' = 2 b x'", "D"),
         ("d/dt(dL/dx') - dL/dx = F - b x'", "d/dt(dL/dx') - dL/dx = 2 F - b x'", "L"),
         ("d/dt(∂T/∂x') - ∂T/∂x + ∂V/∂x + ∂D/∂x' = F", "d/dt(∂T/∂x') - ∂T/∂x + ∂V/∂x + ∂D/∂x' = 2 F", "D, T and V"),
     ],

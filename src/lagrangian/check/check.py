@@ -46,6 +46,7 @@ from lagrangian.check.explain.virtual_displacements import with_virtual_displace
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
 from lagrangian.check.explained import explained
 from lagrangian.check.general import untrue_in_general
+from lagrangian.check.given_slopes import with_given_slopes
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.lines import filled, without_forms, without_periods
@@ -110,6 +111,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     judged, added = with_energies_apart(truth, judged)
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
+    judged = with_given_slopes(truth, judged)
     written = _filled(truth, judged)
     truth = truth.within(region(truth, written))
     verdict = _checked(truth, judged, written, hint, explain)

@@ -23,15 +23,26 @@ from lagrangian.derive import Derived
 from lagrangian.errors import listed
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
+
+
+@dataclass(frozen=True)
+class SlopeNamed:
+    """A derivative of an energy that has no value: the energy's ``kind``, by what it is differentiated, and what is
+    right."""
+
+    kind: str
+    orders: tuple[Any, ...]
+    right: sp.Expr
 
 
 def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[Text]:
     """What to say of such equations that do not hold; of those with accelerations only where there are no multipliers,
     which have names and scales of the answer's own. A statement with a name only gives that a value."""
     for line in lines:
-        if line.kind != "statement" or line.name is not None or not (used := _slopes(truth, line.expr)):
+        if line.kind != "statement" or line.name is not None or not (used := slopes_of(truth, line.expr)):
             continue
-        expr = cast("sp.Expr", line.expr.xreplace({x: value for x, (_, value) in used.items()}))
+        expr = cast("sp.Expr", line.expr.xreplace({x: slope.right for x, slope in used.items()}))
         if not bounded.letters(expr) <= truth.names:
             continue
         moving = expr.has(*[c.acceleration for c in truth.model.coordinates])
@@ -39,21 +50,21 @@ def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterat
             continue
         holds = compare(truth, [expr]).rows[0].kind is not Kind.WRONG if moving else zero_everywhere(truth, expr)
         if not holds:
-            named = listed(sorted({kind for kind, _ in used.values()}))
+            named = listed(sorted({x.kind for x in used.values()}))
             yield text(
                 f"'{line.text}' was not judged, since no line states {named}; with what is right for the system, "
                 "it does not hold."
             )
 
 
-def _slopes(truth: Reference, expr: sp.Expr) -> dict[Any, tuple[str, sp.Expr]]:
-    """The derivatives of energies without a value in an expression: the energy of each, and its right value."""
+def slopes_of(truth: Reference, expr: sp.Expr) -> dict[Any, SlopeNamed]:
+    """The derivatives of energies without a value in an expression, as they are written."""
     known = _written(truth.derivation)
-    found: dict[Any, tuple[str, sp.Expr]] = {}
+    found: dict[Any, SlopeNamed] = {}
     for form in expr.atoms(sp.Derivative, AppliedUndef) & known.keys():
         kind, orders = known[form]
         energy = dissipation(truth) if kind == "D" else {"T": truth.T, "V": truth.V, "L": truth.L}[kind]
-        found[form] = kind, bounded.diff(energy, *orders)
+        found[form] = SlopeNamed(kind, orders, bounded.diff(energy, *orders))
     return found
 
 

@@ -115,6 +115,7 @@ def judge(
     i = index_of(truth, line.name)
     stated_for = _stated_for(truth, lines, line, change)
     own = line.kind in OWN_DERIVATIVES
+    stated = own and any(x.kind in (line.kind[0], "L") for x in lines)
     rights = [_of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi)) for by in stated_for]
     right = rights[0] if rights else right_value(truth, line, None)
     if right is None:
@@ -122,11 +123,15 @@ def judge(
     coordinate = truth.model.coordinates[i].name if i is not None else None
     rest = line.expr - right
     if zero_everywhere(truth, rest):
-        return Finding(line, Status.RIGHT, text("it follows from the energies above") if own else None, coordinate)
+        stated = any(x.kind in (line.kind[0], "L") for x in lines)
+        return Finding(
+            line, Status.RIGHT, text("it follows from the energies above") if own and stated else None, coordinate
+        )
     if line.kind == "identity" and line.name is not None:
         return Finding(line, Status.WRONG)
     if own:
-        return Finding(line, Status.WRONG, text("it is not the derivative of what is stated above"), coordinate)
+        note = text("it is not the derivative of what is stated above") if stated else None
+        return Finding(line, Status.WRONG, note, coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     on = _on_constraints(truth)
