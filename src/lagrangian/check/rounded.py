@@ -10,12 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from itertools import combinations
 from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.explain.combined_rows import cleared
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine
@@ -35,8 +37,8 @@ LONGEST = 1_000
 MAX_COEFFICIENTS = 30
 """The largest number of coefficients of an equation whose ratios are formed."""
 
-MAX_SOLVED = 4
-"""The most coordinates of a system whose equations are solved for the accelerations."""
+MAX_SOLVED, MAX_ELIMINATED = 4, 3
+"""The most coordinates of a system whose equations are solved for the accelerations, or freed from some."""
 
 
 def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
@@ -106,15 +108,26 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -
     from what stands there, and the sizes of these numbers; otherwise the line itself and none."""
     if not expr.atoms(sp.Rational) or bounded.operations(expr) > LONGEST:
         return expr, set()
-    own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
-    forces = {k: x for k, x in own.items() if _is_force(truth, k)}
-    own = {k: x for k, x in own.items() if k not in forces}
-    if not all(map(_is_finite, own.values())):
-        return expr, set()
-    found, sizes = _right_sums(own, partial(_right_lines, truth))
-    if not sizes and typed and not forces:
-        found, sizes = within_rounding(expr, typed, _right_lines(truth)) or (found, sizes)
-    return (sp.Add(*(k * x for k, x in (found | forces).items())), sizes) if sizes else (expr, sizes)
+    for form in _own_forms(truth, expr):
+        own = {k: x for k, x in _sums(form).items() if x}
+        forces = {k: x for k, x in own.items() if _is_force(truth, k)}
+        own = {k: x for k, x in own.items() if k not in forces}
+        if not all(map(_is_finite, own.values())):
+            continue
+        found, sizes = _right_sums(own, partial(_right_lines, truth))
+        found, sizes = (found, sizes) if sizes else _divided(own, _right_lines(truth))
+        if not sizes and typed and not forces:
+            found, sizes = within_rounding(form, typed, _right_lines(truth)) or (found, sizes)
+        if sizes:
+            return sp.Add(*(k * x for k, x in (found | forces).items())), sizes
+    return expr, set()
+
+
+def _own_forms(truth: Reference, expr: sp.Expr) -> Iterator[sp.Expr]:
+    """A line expanded, with the sines and cosines of sums expanded, and times the sum by which it is divided."""
+    yield from _forms(expr)
+    if truth.values and (whole := cleared(expr)) is not expr:
+        yield from _forms(whole)
 
 
 def _is_force(truth: Reference, moving: sp.Expr) -> bool:
@@ -210,7 +223,7 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
 
 def _right_expressions(truth: Reference) -> Iterator[sp.Expr]:
     """The right equations, energies, forces and constraints; √a = b also as a = b²."""
-    yield from (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi)
+    yield from (*truth.rows, *_solved(truth), *_eliminated(truth), truth.T, truth.V, *truth.Xi)
     for row in rows_of(truth.model):
         yield truth.expand(row.rate)
         if row.position is None:
@@ -256,3 +269,24 @@ def _solved(truth: Reference) -> list[sp.Expr]:
     if truth.n > MAX_SOLVED or not all(x.is_number for x in M.flat()) or M.det() == 0:
         return []
     return list((M.inv() * sp.Matrix(truth.rows)).flat())
+
+
+def _eliminated(truth: Reference) -> list[sp.Expr]:
+    """The right equations from which the accelerations of other coordinates are eliminated, if these are multiplied by
+    numbers there, in a small system with values."""
+    if not truth.values or not 1 < truth.n <= MAX_ELIMINATED:
+        return []
+    M = sp.Matrix(truth.derivation.mass_matrix.applyfunc(truth.expand))
+    found: list[sp.Expr] = []
+    for i in range(truth.n):
+        others = [j for j in range(truth.n) if j != i]
+        for size in range(1, truth.n):
+            for out in combinations(others, size):
+                inner = M.extract(list(out), list(out))
+                if not all(x.is_number for x in inner.flat()) or inner.det() == 0:
+                    continue
+                factors = M.extract([i], list(out)) * inner.inv()
+                row = truth.rows[i] - sum(f * truth.rows[j] for f, j in zip(factors.flat(), out, strict=True))
+                form = truth.form(row)  # sin² + cos² is 1
+                found.append(row if form is None else form.expr())
+    return found

@@ -21,7 +21,9 @@ def with_solved_factors(statements: Sequence[Statement], subjects: Subjects) -> 
     product that nothing else explains."""
     names, out = subjects.names, list(with_named_products(statements, subjects))
     own = {key(str(x)) for s in out if len(s.sides) > 1 and (x := _new_name(s.sides[0])) is not None}
-    waiting = {i: _names(s.sides) for i, s in enumerate(out) if _is_product(s)}
+    turned = {i: replace(s, sides=s.sides[::-1]) for i, s in enumerate(out) if len(s.sides) == 2 and not _is_product(s)}
+    turned = {i: s for i, s in turned.items() if _is_product(s) and only_name(s.sides[1]) is not None}  # J = M i^2
+    waiting = {i: _names(s.sides) for i, s in enumerate(out) if _is_product(s) or i in turned}
     counts = Counter(key(x) for s in out for x in _names(s.sides)) if waiting else Counter[str]()
     found = True
     while found:
@@ -30,7 +32,7 @@ def with_solved_factors(statements: Sequence[Statement], subjects: Subjects) -> 
             new = {key(x) for x in listed if _is_new(x, names, own)}
             if len(new) != 1 or not all(key(x) in new or _is_constant(x, names, own) for x in listed):
                 continue
-            made = _solved(out[i], *new)
+            made = _solved(turned.get(i, out[i]), *new)
             if made is None or counts[min(new)] < 2:  # nothing else uses it
                 continue
             out[i], found = made, True
