@@ -45,6 +45,8 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     """The lines with rounded numbers replaced by the coefficients that they stand for, and a note about them."""
     if not truth.values:
         return tuple(lines), ()
+    angles, sizes = _rounded_angles(truth, lines)
+    lines = [replace(line, expr=cast("sp.Expr", line.expr.xreplace(angles))) for line in lines] if angles else lines
     numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational)}
     rounded = {x: unit for x in numbers if (unit := _last_digit(x, FEWEST_DIGITS)) is not None}
     table: dict[sp.Basic, sp.Expr] = {}
@@ -54,7 +56,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
         if near and all(exact != x for _, exact in near):
             meant = min(near, key=lambda pair: pair[0])[1]
             table |= {x: meant, -x: -meant}
-    sizes = {float(abs(cast("Any", x))) for x in table}
+    sizes |= {float(abs(cast("Any", x))) for x in table}
     put: list[AnsweredLine] = []
     typed = typed_in_names(lines)
     for line in lines:
@@ -67,6 +69,21 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
         return tuple(lines), ()
     note = text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if len(told) > 1 else 'was'} read as rounded.")
     return tuple(put), (note,)
+
+
+def _rounded_angles(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[dict[sp.Basic, sp.Expr], set[float]]:
+    """What sines and cosines are that have the rounded value of an angle of the system, sin(φ − 0.0698), and the sizes
+    of these values."""
+    found, sizes = dict[sp.Basic, sp.Expr](), set[float]()
+    exact = [v for v in truth.values.values() if v.is_number and not v.is_Rational]
+    for f in set().union(*(bounded.atoms(line.expr, sp.sin, sp.cos, sp.tan) for line in lines)) if exact else ():
+        number, rest = cast("Any", f.args[0]).as_coeff_Add()
+        for value in exact:
+            meant = next((x for x in (value, -value) if number != 0 and _is_rounded_from(number, x)), None)
+            if meant is not None:
+                found[f] = f.func(rest + meant)
+                sizes.add(abs(float(number)))
+    return found, sizes
 
 
 def with_prescribed_unrounded(

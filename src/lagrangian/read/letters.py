@@ -97,6 +97,12 @@ def _undotted(name: str) -> tuple[str, int]:
     return normal(base), sum(DOTS[letters[i]] for i in marks)
 
 
+def dotted(name: str) -> str:
+    """A name with dots in place of the primes behind it: ``h'`` → ``ḣ``."""
+    bare = name.rstrip("'’′")
+    return f"{bare}{chr(0x307) * (len(name) - len(bare))}"
+
+
 def unaccented(word: str) -> str:
     """Return a word in the letters and digits of ASCII: ``Körper`` → ``Korper``."""
     return "".join(c for c in unicodedata.normalize("NFD", word) if c.isascii() and c.isalnum())

@@ -135,10 +135,10 @@ class Meaning(ExpressionReader):
         kind = {"ℒ": "L"}.get(what, str(what))
         energy = self.names.energy(kind)
         if energy is None and kind not in ENERGIES:
-            energy = self._meaning(what)[1]
+            _, energy, dots = self._meaning(what)
             if self.names.is_unknown(energy):  # ∂c_r/∂ξ̇_i: a part of something that has no value here
                 return slope(key(kind), self.value(by))
-            energy = self.names.model.expand(energy)  # a quantity that the system defines
+            energy = self._rated(self.names.model.expand(energy), dots, what)  # also ∂h'/∂θ of a rate
             if not energy.args or isinstance(energy, AppliedUndef):
                 self.fail(
                     f"'{what}' is not an energy that your answer gives",

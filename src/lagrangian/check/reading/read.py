@@ -45,7 +45,7 @@ from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import read_in_own_letters
-from lagrangian.check.reading.said.listed_values import without_values
+from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -364,7 +364,8 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
 
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
-    own = dict.fromkeys(m[1] for m in _DEFINED.finditer(text) if not is_spelled_out(text, m.end(), m[1]))
+    defined = (m for m in _DEFINED.finditer(text) if not is_spelled_out(text, m.end(), m[1]))
+    own = dict.fromkeys(m[1] for m in defined if not is_value_of_product(m[1], text, m.end(), partial(_value, lines)))
     alone = [m[1] for m in _ALONE.finditer(text)]
     system = Words(lines.names, (), ())
     for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …

@@ -10,7 +10,7 @@ from lark import Tree
 from lagrangian.check.reading.latex.symbols import LatexSymbols
 from lagrangian.check.reading.nodes import inside, leaf, node
 from lagrangian.check.reading.parser import AnswerToken
-from lagrangian.read.letters import key
+from lagrangian.read.letters import dotted, key
 
 _ENERGIES = frozenset("TVLDℒ")
 CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -207,7 +207,8 @@ class LatexFractions(LatexSymbols):
 
 
 def _energy(tree: Tree) -> str:
-    return str(inside(tree).children[0])
+    of, *primes = inside(tree).children
+    return dotted(f"{of}{primes[0] or '' if primes else ''}")
 
 
 def _begins_with_d(part: list[AnswerToken]) -> bool:

@@ -34,7 +34,7 @@ from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.read.explain import explain
-from lagrangian.read.letters import undotted
+from lagrangian.read.letters import dotted, undotted
 
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
 _BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
@@ -187,7 +187,7 @@ class PlainParser(PlainCalls):
                 found = TOKEN.match(self.source.text, token.start)
                 assert found is not None
                 by = name(found["by"], found.start("by"), sum(ORDERS[c] for c in found["dots"]))
-                return node("partial", token.start, leaf("NAME", found["what"], token.start), by)
+                return node("partial", token.start, leaf("NAME", dotted(found["what"]), token.start), by)
         raise self.stopped(True)
 
     def _absolute(self) -> Tree:

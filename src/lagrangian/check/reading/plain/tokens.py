@@ -30,7 +30,7 @@ _KINDS = [
     ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
     (
         "partial",
-        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|[^\W\d]\w{{0,24}}))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}{_PRIME}{{0,2}}|[^\W\d]\w{{0,24}}))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
     ),
     ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
     ("fraction", r"[¼½¾⅐-⅞]"),

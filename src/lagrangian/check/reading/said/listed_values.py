@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from math import isclose, pi
+from math import isclose, isnan, pi, prod
 
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.quantities.units import joined, lookup
@@ -84,6 +84,25 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         lines[k] = "".join(kept)
         notes.setdefault(f"Line {k + 1} was read as a list of values.")
     return "\n".join(lines)
+
+
+_NUMBER = re.compile(r"[ \t]*+([-−]?\d{1,9}(?:[.,]\d{1,12})?)(?![\w.,]*\d)")
+LONGEST_PRODUCT = 4
+"""The most letters of a product whose value is given."""
+ROUNDED = 0.005
+"""How far the value of a product may be off, as a part of it."""
+
+
+def is_value_of_product(name: str, text: str, end: int, values: Callable[[str], float | None]) -> bool:
+    """Whether what stands behind a name up to ``end``, its equals sign, is the value of the product of its letters,
+    which are parameters of the system: Me = 0.18."""
+    if not 1 < len(name) <= LONGEST_PRODUCT or not name.isalpha() or values(name) is not None:
+        return False
+    factors = [values(x) for x in name]
+    number = _NUMBER.match(text, end)
+    if number is None or any(x is None or isnan(x) for x in factors):
+        return False
+    return isclose(float(number[1].replace(",", ".").replace("−", "-")), prod(map(float, factors)), rel_tol=ROUNDED)  # type: ignore[arg-type]
 
 
 def _in_last_unit(match: re.Match[str]) -> str:

@@ -67,6 +67,8 @@ _NAMED = frozenset(
 """Words between a value and the name for it."""
 _POINTING = frozenset(["direction", "along", "against", "towards", "parallel", "opposite", "richtung", "entgegen"])
 """Words in front of what only gives a direction: λ is positive in the direction of Ω s."""
+_DONE = frozenset(["times", "mal", "fois", "plus", "minus", "less"])
+"""Words in front of what is done to an equation: F from the rear wheel, times n r."""
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
 _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
@@ -222,7 +224,7 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
         return  # -λ r/p for r, 0 for φ, λ for z: what stands in which equation
     for (kind, first, said), (other, second, between) in pairwise(groups):
         lower = {x.lower() for x in between}
-        if {x.lower() for x in between[-3:]} & _POINTING:
+        if {x.lower() for x in between[-3:]} & _POINTING or {x.lower() for x in between[-1:]} & _DONE:
             continue
         if (kind, other) == ("name", "value"):
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
