@@ -177,8 +177,8 @@ class Lines:
         if len(sides) > 1 and only_name(sides[0]) is not None and is_matrix(sides[1]):
             return False  # its entries are in the letters of the system
         names = {key(str(token)) for side in sides for token, _ in names_in(side)} & self._matrices
-        written = (tree.data == "matrix" for side in sides for tree in side.iter_subtrees())
-        return len(names) > 1 or (bool(self._matrices) and any(written))
+        written = any(tree.data == "matrix" for side in sides for tree in side.iter_subtrees())
+        return len(names) > 1 or (written and (bool(self._matrices) or self.names.has_column(sides)))
 
     def _look_ahead(self, base: str) -> None:
         """Read the definition of a name that comes later in the answer; that of an acceleration only for another."""

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 
 from lagrangian.check.reading.traced_text import Edit
 
-TRANSPOSED = re.compile(r"\s*(?:\.?['’](?!\w)|\^\s*[({]?\s*(?:T|⊤|\\top)|ᵀ|\.T(?!\w))")
+_UPRIGHT = r"(?:\\(?:mathrm|mathsf|mathbf|mathit|text|textsf|rm|sf)\s*\{?\s*)?"
+TRANSPOSED = re.compile(rf"\s*(?:\.?['’](?!\w)|\^\s*[({{]?\s*(?:{_UPRIGHT}T|⊤|\\top|\\intercal)|ᵀ|\.T(?!\w))")
 _RATE_OF_LIST = re.compile(r"(?<![=<>'′’″])=\s*\[[^\[\];=]*,[^\[\];=]*\](?P<mark>\.?['’])(?=[ \t]*(?:[,;.\n]|\Z))")
 _PRIMED = re.compile(r"['′’″]\s*\Z|(?:dot|d{1,2})\s*\Z")
 _TUPLE_SIDE = re.compile(r"=\s*(?P<open>\()")
 _AFTER_SIDE = re.compile(r"[ \t]*(?:[,;.\n]|\Z)")
-_UPRIGHT_T = r"(?:\\(?:mathrm|text|rm)\s*\{?\s*)?(?:T|\\top|\\intercal)(?![A-Za-z])"
+_UPRIGHT_T = rf"{_UPRIGHT}(?:T|\\top|\\intercal)(?![A-Za-z])"
 _SPACED_ROW = re.compile(
     r"(?<!\\)[\[(](?P<row>(?:[^\[\]()=,;\n\\]|\\[ ,;:!]|\\[A-Za-z]++){1,400}?)"
     rf"(?:\\right\s*)?[\])]\s*\^\s*\{{?\s*{_UPRIGHT_T}"

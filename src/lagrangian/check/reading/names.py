@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
@@ -16,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.implied_rates import implied_rates
+from lagrangian.check.reading.name_hints import factors_of, hint_for
 from lagrangian.check.reading.nodes import names_in, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
@@ -24,7 +24,7 @@ from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, v
 from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate, own_kinetic
-from lagrangian.errors import ParseError, did_you_mean
+from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
 from lagrangian.quantities.source import Source
@@ -42,6 +42,8 @@ SHORTEST_NEAR, NEAR = 4, 0.8
 
 PI = ("pi", "π", "Pi", "PI")
 """Names of π, also of programs."""
+BOLD = "bold "
+"""What stands in front of a bold letter."""
 COLUMNS = frozenset(["q", "x", "X", "y", "z", "xi", "eta"])
 """Letters that often are the column of all coordinates."""
 
@@ -127,7 +129,7 @@ class Names:
 
     def misspelled(self, run: str) -> bool:
         """Whether a run of letters is similar to a name of the model and is not a product of known names."""
-        near = len(run) >= SHORTEST_NEAR and not self.known(run) and not self._factors(run)
+        near = len(run) >= SHORTEST_NEAR and not self.known(run) and not factors_of(run, self.scope)
         return near and bool(get_close_matches(run, self.scope, n=1, cutoff=NEAR))
 
     def occurs(self, written: str) -> int:
@@ -239,9 +241,18 @@ class Names:
             self.later(key(base))
         if (mine := self.mine(key(base))) is not None and not (own and undotted(mine[0])[0] != base):
             return mine[1] if isinstance(mine[1], MatrixBase) else None
-        if key(base) not in COLUMNS or (own and not self.columns) or key(base) in self.defined:
+        if not self._is_column(base) or (own and not self.columns):
             return None
         return sp.ImmutableMatrix(self.column)
+
+    def has_column(self, sides: Iterable[Tree]) -> bool:
+        """Whether the column of all coordinates stands in trees by a letter that is nothing else."""
+        stems = {undotted(token)[0] for side in sides for token, _ in names_in(side)}
+        return any(self._is_column(x) and (x.startswith(BOLD) or not self.scope.meanings(x)[0]) for x in stems)
+
+    def _is_column(self, base: str) -> bool:
+        """Whether a letter that the answer does not define may be the column of coordinates."""
+        return key(base.removeprefix(BOLD)) in COLUMNS and not {key(base), key(base.removeprefix(BOLD))} & self.defined
 
     def in_order(self, listed: Sequence[str]) -> None:
         """Take the order of the coordinates from an answer that lists all of them."""
@@ -348,28 +359,6 @@ class Names:
         fix = f"Did you mean {' or '.join(meant)}?"
         raise source.error(f"'{base[:40]}' cannot be read", start_of(token), fix=fix, code="E402")
 
-    def _hint(self, base: str) -> str | None:
-        """A suggestion for an unknown name: a product without *, a shorter spelling, or a similar name."""
-        if len(parts := self._factors(base)) > 1:
-            return f"Write {'*'.join(parts)} for a product."
-        head, digits = re.fullmatch(r"(.*?)_?(\d*)", spelled(base), re.DOTALL).groups()  # type: ignore[union-attr]
-        longer = [n for n in self.scope if spelled(n).startswith(head) and re.fullmatch(rf".*?{digits}", n)]
-        if len(head) >= 2 and len(longer) == 1:
-            return f"Did you mean '{longer[0]}'?"
-        return self.scope.hint(base) or did_you_mean(spelled(base).swapcase(), self.scope)
-
-    def _factors(self, base: str) -> list[str]:
-        """The known names of which a word consists, the longest first; empty if it does not."""
-        parts: list[str] = []
-        at = 0
-        while at < len(base):
-            part = next((base[at:end] for end in range(len(base), at, -1) if base[at:end] in self.scope), None)
-            if part is None:
-                return []
-            parts.append(part)
-            at += len(part)
-        return parts
-
     def _noted(self, base: str, token: Token, source: Source) -> str:
         if len(base) > MAX_NAME:
             what = f"a name with {len(base)} characters"
@@ -382,7 +371,7 @@ class Names:
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
             hint = None
             if len(self.unknown) < MAX_HINTS:
-                hint = self._hint(base)
+                hint = hint_for(base, self.scope)
             self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
         return base
 

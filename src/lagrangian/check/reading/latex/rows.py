@@ -68,6 +68,8 @@ _NAME_BEFORE = re.compile(
 )
 """The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F, \\phi-equation: …"""
 _TAGGED = r"\(\s*(?:\\[A-Za-z]{2,12}|[^\W\d_])(?:\s?_\s?(?:\w|\\[A-Za-z]{2,12}|\{\s?\\?\w{1,8}\s?\}))?['’′]*\s*\)"
+_WORDS_BEFORE = re.compile(rf"{_SPACE}\x00(?:\s|~|\(\s*\w{{1,4}}\s*\))*:(?={_SPACE}[^\s=])(?=.*=)", re.DOTALL)
+r"""Words and a colon: \text{Moments about A}: J \ddot\theta = …"""
 _TAG_BEFORE = re.compile(
     rf"{_SPACE}{_TAGGED}(?:\s*[-+]\s*{_TAGGED}){{0,4}}\s*(?:&|\\q?quad(?![A-Za-z]))(?={_SPACE}[^\s=+*/^])(?=.*=)",
     re.DOTALL,
@@ -252,7 +254,7 @@ def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
 
 def _labels(piece: str) -> str:
     """Blank out arrows, and numbers of equations before and after a statement."""
-    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _TAG_BEFORE, _ARROW):
+    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _WORDS_BEFORE, _TAG_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
     end = _content_end(piece)
