@@ -33,6 +33,7 @@ from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
+from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.modelica import without_modelica
 from lagrangian.check.reading.programs.names import with_declared, with_program_names
@@ -117,6 +118,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     dotted = with_dots_above(_copied(text), lambda name: key(name) in moving)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
+    listed = with_tables_written_out(listed)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
     own = {key(name) for name in lines.model.symbols}

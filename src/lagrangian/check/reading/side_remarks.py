@@ -53,6 +53,9 @@ _RELATION = re.compile(
     r"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=|(?<=[ \t])(?:(?:goes|tends)[ \t])?to(?=[ \t](?:infinity|∞|zero|0)\b))"
     rf"[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
 )
+_OFF = rf"(?<![\w*/^+]){_NAME}[ \t]*=[ \t]*{_NAME}[ \t]*\+[ \t]*{_NAME}(?![\w/(])"
+_DEVIATION = re.compile(rf"\W{{0,6}}linear[^\W\d_]{{0,10}}+[^\n=]{{0,40}}{_OFF}", re.IGNORECASE)
+"""Linearized about a position, with a letter for how far it is off: Linear, phi = phi_e + eta: …"""
 _GOES_ON = re.compile(r"(?<=[\w'’′])[ \t]*[-+−*/·][ \t]*[\w(\\]")
 """What makes a value a sum or a product: s = x - R theta."""
 _NEXT = re.compile(rf"[ \t]{{1,9}}(?P<name>{_NAME})(?![\w'’′])")
@@ -254,7 +257,7 @@ def _kind(line: str) -> str | None:
     """Whether a line begins as a check or a case."""
     head = line.split("=", 1)[0] if ":" not in line else line.split(":", 1)[0].split("=", 1)[0]
     words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
-    if CASES & set(words):
+    if CASES & set(words) or _DEVIATION.match(line):
         return "case"
     of_frequencies = bool(FREQUENCIES & set(words)) and set(words) <= BESIDE_FREQUENCIES and not moves(line)
     return "check" if CHECKS & set(words) or of_frequencies else None

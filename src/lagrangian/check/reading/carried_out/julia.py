@@ -39,6 +39,18 @@ _VALUES = re.compile(
     rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+\([ \t]*+;?[ \t]*+{_NAME}[ \t]*+=(?!=)[^\n()]*+\)[ \t]*+$", re.MULTILINE
 )
 """Values of parameters by their names, in one line: p = (m = 1.0, k = 2.0)."""
+_BOTH = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?P<sine>{_NAME})[ \t]*+,[ \t]*+(?P<cosine>{_NAME})[ \t]*+=[ \t]*+sincos"
+    r"(?P<of>\([^\n%#=]*+)$",
+    re.MULTILINE,
+)
+"""Sine and cosine at once: s, c = sincos(φ)."""
+_PART = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?P<of>{_NAME})\[(?P<first>\d{{1,2}}):(?P<last>\d{{1,2}})\][ \t]*+\.=[ \t]*+"
+    r"[(\[](?P<listed>[^\n%#()\[\]]*+)[)\]][ \t]*+$",
+    re.MULTILINE,
+)
+"""Some entries of a list at once: du[1:2] .= (v, w)."""
 _CHANGES = re.compile(r"(?<=\w)!(?!=)")
 _STRUCTURE = re.compile(r"[ \t]*+(?:@kwdef[ \t]++|Base\.@kwdef[ \t]++)?(?:mutable[ \t]++)?struct\b")
 _TYPE = re.compile(r"::[\w.{}]{1,60}+")
@@ -68,7 +80,8 @@ def in_matlab(text: str) -> str:
     text = _PRIMES.sub(lambda m: "dot" if m.group() == "′" else "ddot", _letters(text))
     text = "\n".join(_without_structures([_commented(x) for x in text.split("\n")]))
     text = _TYPE.sub("", _NOTHING.sub("", _VALUES.sub("", _PARAMETERS.sub("", _LEFT_OUT.sub("", text)))))
-    text = _CHANGES.sub("", _FUNCTION.sub(_header, text))
+    text = _BOTH.sub(lambda m: f"{m['indent']}{m['sine']} = sin{m['of']}; {m['cosine']} = cos{m['of']}", text)
+    text = _CHANGES.sub("", _FUNCTION.sub(_header, _PART.sub(_part, text)))
     text = _SHORT.sub(lambda m: f"{m['name']} = @({m['given']}) ", text)
     text = _ARROW.sub(lambda m: f"@({m['given'] or m['one']}) ", text)
     text = _CONDITION.sub(lambda m: f"{m['to']}{CONDITIONAL}()", text)
@@ -113,6 +126,15 @@ def _header(match: re.Match[str]) -> str:
     given = [x for x in given if x]
     out = given.pop(0) if match["mark"] and given else RESULT
     return f"function {out} = {match['name']}({', '.join(given)})"
+
+
+def _part(match: re.Match[str]) -> str:
+    """Entries one by one: du[1] = v; du[2] = w."""
+    listed = [x.strip() for x in match["listed"].split(",")]
+    places = range(int(match["first"]), int(match["last"]) + 1)
+    if len(listed) != len(places):
+        return match.group()
+    return match["indent"] + "; ".join(f"{match['of']}[{k}] = {x}" for k, x in zip(places, listed, strict=True))
 
 
 def _unpacked(match: re.Match[str]) -> str:
