@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian.check.all_forces import whole_force
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import index_of
@@ -24,7 +25,10 @@ def with_forces_in_parts(truth: Reference, findings: Sequence[Finding]) -> list[
         if len(at) < 2 or i is None or any(found[k].status is Status.RIGHT for k in at):
             continue
         total = sp.Add(*(found[k].line.expr for k in at))
-        if all(found[k].status.right for k in at) or not zero_everywhere(truth, total - truth.Xi[i]):
+        rights = (
+            [truth.Xi[i]] if any(f.line.kind in ("V", "L") for f in findings) else [truth.Xi[i], whole_force(truth, i)]
+        )
+        if all(found[k].status.right for k in at) or not any(zero_everywhere(truth, total - x) for x in rights):
             continue
         note = text("a part of it: all that is listed is the whole force")
         for k in at:

@@ -125,14 +125,14 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -
     from what stands there, and the sizes of these numbers; otherwise the line itself and none."""
     if not expr.atoms(sp.Rational) or bounded.operations(expr) > LONGEST:
         return expr, set()
-    for form in _own_forms(truth, expr):
+    for form, divided in _own_forms(truth, expr):
         own = {k: x for k, x in _sums(form).items() if x}
         forces = {k: x for k, x in own.items() if _is_force(truth, k)}
         own = {k: x for k, x in own.items() if k not in forces}
         if not all(map(_is_finite, own.values())):
             continue
         found, sizes = _right_sums(own, partial(_right_lines, truth))
-        found, sizes = (found, sizes) if sizes else _divided(own, _right_lines(truth))
+        found, sizes = _divided(own, _right_lines(truth)) if divided and not sizes else (found, sizes)
         if not sizes and typed and not forces:
             found, sizes = within_rounding(form, typed, _right_lines(truth)) or (found, sizes)
         if sizes:
@@ -140,11 +140,11 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -
     return expr, set()
 
 
-def _own_forms(truth: Reference, expr: sp.Expr) -> Iterator[sp.Expr]:
-    """A line expanded, with the sines and cosines of sums expanded, and times the sum by which it is divided."""
-    yield from _forms(expr)
+def _own_forms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[sp.Expr, bool]]:
+    """A line expanded, with the sines and cosines of sums expanded, and times the sum by which it is ``divided``."""
+    yield from ((x, False) for x in _forms(expr))
     if truth.values and (whole := cleared(expr)) is not expr:
-        yield from _forms(whole)
+        yield from ((x, True) for x in _forms(whole))
 
 
 def _is_force(truth: Reference, moving: sp.Expr) -> bool:

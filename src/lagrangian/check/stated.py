@@ -123,10 +123,7 @@ def judge(
     coordinate = truth.model.coordinates[i].name if i is not None else None
     rest = line.expr - right
     if zero_everywhere(truth, rest):
-        stated = any(x.kind in (line.kind[0], "L") for x in lines)
-        return Finding(
-            line, Status.RIGHT, text("it follows from the energies above") if own and stated else None, coordinate
-        )
+        return Finding(line, Status.RIGHT, text("it follows from the energies above") if stated else None, coordinate)
     if line.kind == "identity" and line.name is not None:
         return Finding(line, Status.WRONG)
     if own:

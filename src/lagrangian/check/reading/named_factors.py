@@ -22,7 +22,7 @@ def with_solved_factors(statements: Sequence[Statement], subjects: Subjects) -> 
     names, out = subjects.names, list(with_named_products(statements, subjects))
     own = {key(str(x)) for s in out if len(s.sides) > 1 and (x := _new_name(s.sides[0])) is not None}
     turned = {i: replace(s, sides=s.sides[::-1]) for i, s in enumerate(out) if len(s.sides) == 2 and not _is_product(s)}
-    turned = {i: s for i, s in turned.items() if _is_product(s) and only_name(s.sides[1]) is not None}  # J = M i^2
+    turned = {i: s for i, s in turned.items() if _is_product(s) and _is_parameter(s.sides[1], names)}  # J = M i^2
     waiting = {i: _names(s.sides) for i, s in enumerate(out) if _is_product(s) or i in turned}
     counts = Counter(key(x) for s in out for x in _names(s.sides)) if waiting else Counter[str]()
     found = True
@@ -47,6 +47,13 @@ def _is_product(statement: Statement) -> bool:
         return False
     left = inside(statement.sides[0])
     return isinstance(left, Tree) and left.data == "product" and "/" not in left.children[1::2]
+
+
+def _is_parameter(side: Node, names: Names) -> bool:
+    """Whether a side is a parameter of the system alone."""
+    found = only_name(side)
+    meant = [] if found is None or found[1] else names.scope.meanings(found[0])[0]
+    return any(p.name in meant for p in names.model.parameters)
 
 
 def _new_name(side: Node) -> str | None:
