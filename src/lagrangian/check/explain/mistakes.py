@@ -51,6 +51,7 @@ from lagrangian.check.explain.sums_written import by_sums
 from lagrangian.check.explain.taken_as import taken_as
 from lagrangian.check.explain.term_said import beside, with_term
 from lagrangian.check.explain.undivided import undivided
+from lagrangian.check.explain.undone import Undone
 from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.explain.written_pieces import Against, WrittenPieces
 from lagrangian.check.prescribed import of_prescribed, with_prescribed
@@ -116,7 +117,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     if (blamed := bodies.of_all(findings, wrong)) is not None:
         return NamedMistakes(_once([reasoned(pool, p, pieces) for p in blamed.said], ()), certain=True, blamed=blamed)
     shown = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
-    against = Against(frozenset(shown), pieces)
+    against = Against(frozenset(shown), pieces, Undone(pool, findings))
     groups, own, left = list[list[Explanation]](), list[Mistake](), list[AnsweredLine]()
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
