@@ -163,7 +163,7 @@ def _copied_forces(truth: Reference, lines: Sequence[AnsweredLine], work: Answer
     copied = {i: x for i, x in known.items() if zero_everywhere(truth, below[names[i]] - x)}
     if truth.derivation.multipliers or not stated or copied.keys() != stated.keys() or len(below) != len(stated):
         return []
-    return [replace(work, kind="Xi", name=names[i], expr=x) for i, x in stated.items()]
+    return [replace(work, kind="Xi", name=names[i], expr=x) for i, x in sorted(stated.items())]
 
 
 def _known(truth: Reference, force: sp.Expr) -> bool:
