@@ -204,8 +204,8 @@ def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
-    told, under = explanation.told, explanation.under
-    return all(is_quotable(in_words(truth, t, under), written | cancelled(truth, t.mistake)) for t in told)
+    said = ((t, in_words(truth, t, explanation.under)) for t in explanation.told)
+    return all(is_quotable(m, written | cancelled(truth, t.mistake)) for t, m in said)
 
 
 def _without_partial(
@@ -218,9 +218,7 @@ def _without_partial(
     """
     counts = [len(found[0].told) if found else len(more) for found, more in told]
     fewest = min(counts, default=0)
-    first = {
-        id(found[0].told[0].mistake) for (found, _), count in zip(told, counts, strict=True) if found and count == 1
-    }
+    first = {id(x[0].told[0].mistake) for (x, _), count in zip(told, counts, strict=True) if x and count == 1}
     return [
         (found, more)
         for (found, more), count in zip(told, counts, strict=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeAlias, cast
 
 import sympy as sp
@@ -61,8 +62,7 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
 
 def _coordinate_in(parts: Sequence[Part]) -> str | None:
     """The coordinate whose equation a sentence on a term names."""
-    named = zip(parts, parts[1:], strict=False)
-    found = (x for before, x in named if isinstance(before, str) and before.endswith(EQUATION))
+    found = (x for before, x in pairwise(parts) if isinstance(before, str) and before.endswith(EQUATION))
     return next((str(getattr(x, "func", x)) for x in found), None)
 
 
