@@ -159,11 +159,14 @@ def _copied_forces(truth: Reference, lines: Sequence[AnsweredLine], work: Answer
     stated = _stated_forces(truth, work)
     below = {x.name: x.expr for x in lines if x.kind == "Xi" and x.number >= work.number}
     names = [c.name for c in truth.model.coordinates]
-    known = {i: x for i, x in stated.items() if names[i] in below and bounded.letters(x) <= truth.names}
-    copied = {i: x for i, x in known.items() if zero_everywhere(truth, below[names[i]] - x)}
-    if truth.derivation.multipliers or not stated or copied.keys() != stated.keys() or len(below) != len(stated):
+    if truth.derivation.multipliers or not stated or below.keys() != set(names):
         return []
-    return [replace(work, kind="Xi", name=names[i], expr=x) for i, x in sorted(stated.items())]
+    every = [stated.get(i, sp.S.Zero) for i in range(truth.n)]
+    if not all(bounded.letters(x) <= truth.names for x in every):
+        return []
+    if not all(zero_everywhere(truth, below[name] - x) for name, x in zip(names, every, strict=True)):
+        return []
+    return [replace(work, kind="Xi", name=name, expr=x) for name, x in zip(names, every, strict=True)]
 
 
 def _known(truth: Reference, force: sp.Expr) -> bool:

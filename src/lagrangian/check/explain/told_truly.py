@@ -36,7 +36,8 @@ def told_truly(verdict: Verdict) -> Verdict:
     refuted = [_is_refuted(m, verdict) for m in mistakes]
     if not any(refuted):
         return replace(verdict, mistakes=tuple(mistakes))
-    others = [m for m in verdict.alternatives if not _is_refuted(m, verdict)]
+    either = set((mistakes[0].element or "").split(EITHER)) if EITHER in (mistakes[0].element or "") else set[str]()
+    others = [m for m in verdict.alternatives if not _is_refuted(m, verdict) and m.element not in either]
     kept: list[Mistake] = []
     for k, (m, false) in enumerate(zip(mistakes, refuted, strict=True)):
         if not false:
@@ -104,9 +105,13 @@ def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDi
 
 
 def _terms_of(mistake: Mistake, verdict: Verdict) -> list[Mistake]:
-    """The terms that differ where a mistake was said to be, if they are few."""
-    terms = _differing(mistake, verdict)
-    return [_term(f, d) for f, d in terms] if len(terms) <= MOST_TOLD else []
+    """The terms that differ where a mistake was said to be, or what is certain of them if they are many."""
+    terms = _differing(mistake, verdict) or _differing(replace(mistake, element=None), verdict)
+    if len(terms) <= MOST_TOLD:
+        return [_term(f, d) for f, d in terms]
+    titles = " and ".join(dict.fromkeys(f.line.title for f, _ in terms))
+    said = f"In {titles}, the terms that come from {mistake.element} are not right."
+    return [replace(mistake, name="terms_alone", what=text(said), brief=text(said))] if mistake.element else []
 
 
 def _term(finding: Finding, difference: TermDifference) -> Mistake:
