@@ -141,3 +141,51 @@ def test_a_number_computed_with_a_stated_rounded_sine_is_right() -> None:
     for wrong in ("3 x'' = F - 10.075", "3 x'' = F + 10.065", "3 x'' = F - 10.065 x"):
         assert not check_answer(slope(), stated + wrong).right, wrong
     assert not check_answer(slope(), "3 x'' = F - 10.065").right
+
+
+@cache
+def gate() -> lg.Derivation:
+    """A gate whose cord, of a length with a name, lifts a weight in a guide that damps."""
+    s = lg.System("gate")
+    theta = s.coordinate("theta")
+    m, J, a, d, b, c = s.parameters("m J a d b c")
+    length = s.define("l", sp.sqrt(a**2 + d**2 - 2 * a * d * sp.cos(theta)))
+    s.rigid_body(mass=1, inertia=(0, 0, J), at=s.origin, frame=s.frame(theta, axis=(0, 0, 1), name="gate"), name="gate")
+    s.particle(m, at=s.point("W", (d, 0, length)), name="weight")
+    s.gravity((0, 0, -1))
+    s.damper(b, deflection=theta, name="hinge")
+    s.damper(c, deflection=length, name="guide")
+    return s.derive()
+
+
+RATE = "l' = {} θ'\nLet q = {}, q' its derivative with respect to θ:\n"
+ROW = "(J + m q^2) θ'' + m q q' θ'^2 + m g a d sin θ/l = {} b θ' - c q^2 θ'"
+
+
+def test_the_wrong_rate_of_a_length_is_told_where_it_is_written() -> None:
+    """The energy, the damper and the equation follow from it."""
+    right = RATE.format(*["a d sin θ/l"] * 2) + ROW.format("-")
+    assert check_answer(gate(), right).right
+    answer = RATE.format(*["a d sin θ/(2 l)"] * 2) + ROW.format("-")
+    verdict = judged(gate(), answer)
+    assert [str(m.what) for m in verdict.mistakes] == [
+        "Line 1 is not right: the rate of l is a*d*sin(theta)*theta'/l, not a*d*sin(theta)*theta'/(2*l)."
+    ]
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [1]
+
+
+def test_another_mistake_beside_a_wrong_rate_is_told_as_well() -> None:
+    """The exchange of sine and cosine in the guide's damper follows from the rate and is told once."""
+    answer = RATE.format(*["a d cos θ/l"] * 2) + "T = J/2 θ'^2 + m/2 q^2 θ'^2\nΞ = b θ' - c q^2 θ'"
+    said = told(gate(), answer)
+    assert said == [
+        "Line 1 is not right: the rate of l is a*d*sin(theta)*theta'/l, not a*d*cos(theta)*theta'/l.",
+        "Damper 'hinge' has the wrong sign.",
+    ], said
+
+
+def test_a_lost_divisor_is_told_in_the_names_of_the_answer() -> None:
+    named = "u = a d sin θ/l\n(J + m u^2) θ'' + m u (a d cos θ - u^2){} θ'^2 + m g u = -b θ' - c u^2 θ'"
+    assert check_answer(gate(), named.format("/l")).right
+    (said,) = told(gate(), named.format(""))
+    assert said.endswith("in the term m*(a*d*cos(theta) - u^2)*u*theta'^2, one divisor l is missing."), said

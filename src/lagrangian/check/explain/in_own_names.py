@@ -116,11 +116,14 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
 
 
 def _in_definitions(lines: Sequence[AnsweredLine]) -> dict[int, frozenset[str]]:
-    """The keys of the names that the definitions in each line use, and do not define."""
+    """The keys of the names that the definitions and the equations in each line use, and do not define."""
     found: dict[int, frozenset[str]] = {}
     for line in lines:
+        if line.kind in ("definition", "equation"):
+            found[line.number] = found.get(line.number, frozenset()) | names_in(line)
+    for line in lines:
         if line.kind == "definition":
-            found[line.number] = found.get(line.number, frozenset()) | (names_in(line) - {key(line.name or "")})
+            found[line.number] -= {key(line.name or "")}
     return found
 
 

@@ -34,6 +34,7 @@ from lagrangian.check.explain.line_mistakes import (
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_denominators import mistake_of
+from lagrangian.check.explain.own_rates import wrong_rates
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reasoned import as_defined, reasoned
@@ -111,7 +112,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]
-    bodies = BodiesSaid(truth, lines, (*true, *right), _rates(truth, wrong))
+    bodies = BodiesSaid(truth, lines, (*true, *right), wrong_rates(truth, wrong))
     pool = pool_of(truth)
     pieces = WrittenPieces(pool, lines)
     if (blamed := bodies.of_all(findings, wrong)) is not None:
@@ -165,11 +166,6 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     told, others = of_equations(as_defined(pool, told, blamed, wrong, pieces), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
-
-
-def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine]:
-    """The wrong rates of places of the answer's own, ẏ = …."""
-    return [x for x in wrong if x.kind == "identity" and x.name not in truth.model.symbols]
 
 
 def _with_definitions(
