@@ -27,7 +27,9 @@ def with_stated_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> list
     values = {p: v for p, v in values_of(truth, ()).items() if v != 1} if stated else {}
     if not values:
         return others
-    known = [(float(exact.xreplace(stated)), exact) for exact in _exact(truth.with_values(values), stated)]
+    known = [
+        (float(cast("sp.Expr", exact.xreplace(stated))), exact) for exact in _exact(truth.with_values(values), stated)
+    ]
     table: dict[sp.Basic, sp.Expr] = {}
     for number in {abs(x) for line in others for x in bounded.atoms(line.expr, sp.Rational)}:
         unit = last_digit(number, FEWEST_DIGITS)

@@ -39,4 +39,5 @@ def _value(expr: sp.Expr, table: dict[Any, Any]) -> complex:
     """The value of an expression with numbers for its rates, coordinates and letters."""
     rates = {x: y for x, y in table.items() if isinstance(x, sp.Derivative)}
     others = {x: y for x, y in table.items() if isinstance(x, (sp.Symbol, AppliedUndef))}
-    return complex(cast("Any", expr.xreplace(rates).xreplace(others).evalf()))
+    value: Any = expr.xreplace(rates).xreplace(others)
+    return complex(value.evalf())
