@@ -2,7 +2,8 @@
 
 Oracle: their authors, who had not seen the checker and held every answer against the model by a program of their own.
 ``exams/*.toml`` holds a model with the answers to it: ``is`` says what one is, ``planted`` what went wrong, and
-``lines`` in which lines. ``open`` marks a right answer that is not accepted so far, with the reason.
+``lines`` in which lines. ``open`` marks a right answer that is not accepted so far, with the reason. ``says`` is what
+is told of a wrong one that was told something untrue before.
 """
 
 from __future__ import annotations
@@ -48,6 +49,16 @@ def test_right_answers_are_accepted_and_wrong_ones_are_not(system: str) -> None:
             assert isinstance(verdict, CheckedAnswer) and verdict.right, told
         else:
             assert isinstance(verdict, CheckedAnswer) and not verdict.right, told
+
+
+@pytest.mark.sampled(("chop-saw",))
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_what_is_told_is_true_of_the_answer(system: str) -> None:
+    for answer, verdict in judged(system):
+        if "says" in answer:
+            assert isinstance(verdict, CheckedAnswer)
+            told = [str(m.what) for m in verdict.mistakes]
+            assert told == answer["says"], f"{answer['file']}: {told}"
 
 
 @pytest.mark.slow

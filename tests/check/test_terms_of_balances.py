@@ -209,7 +209,7 @@ def test_the_other_leg_of_a_slanting_rope_is_blamed_and_not_the_right_balance() 
         found = statuses(collar(), answer)
         assert found[2] == (False, False) and found[3] == (True, False)
         (told,) = said(collar(), answer)
-        assert "line 2" in told and "-S*h/sqrt" in told and "should be -S*y/sqrt" in told, told
+        assert "line 2" in told and "-S*h/" in told and "should be -S*y/" in told, told
 
 
 @pytest.mark.parametrize("other", ["M z'' = S - M g", "M z'' = S - M g - 3 k l"])

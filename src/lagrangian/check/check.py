@@ -58,8 +58,9 @@ from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, 
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.reference import Reference, truth_of
-from lagrangian.check.rounded import is_true_number, unrounded, with_prescribed_unrounded
+from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
+from lagrangian.check.stated_numbers import with_stated_numbers
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.check.virtual_work import judged_with_work
 from lagrangian.check.wrong_in_own_coordinates import (
@@ -88,7 +89,7 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     _log.info("checking the answer")
     truth = truth_of(derivation)
     work = partial(judged_with_work, truth, judge=lambda said: _declared(truth, said, hint, explain))
-    return judged_with_amounts(truth, [x for x in lines if not is_true_number(x)], work)
+    return judged_with_amounts(truth, with_stated_numbers(truth, lines), work)
 
 
 def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:

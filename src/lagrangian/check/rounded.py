@@ -48,7 +48,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     angles, sizes = _rounded_angles(truth, lines)
     lines = [replace(line, expr=cast("sp.Expr", line.expr.xreplace(angles))) for line in lines] if angles else lines
     numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational)}
-    rounded = {x: unit for x in numbers if (unit := _last_digit(x, FEWEST_DIGITS)) is not None}
+    rounded = {x: unit for x in numbers if (unit := last_digit(x, FEWEST_DIGITS)) is not None}
     table: dict[sp.Basic, sp.Expr] = {}
     known = coefficients(truth) if rounded else ()
     for x, unit in rounded.items():
@@ -156,10 +156,10 @@ def _right_sums(
     own: dict[sp.Expr, sp.Expr], rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]
 ) -> tuple[dict[sp.Expr, sp.Expr], set[float]]:
     """The one of ``rights`` that sums are but for numbers that are rounded, and the sizes of these."""
-    if any(_last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
+    if any(last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
         return _divided(own, rights())
     numbers = {abs(x) for x in own.values() if isinstance(x, sp.Rational)}
-    units: dict[Any, float] = {x: u for x in numbers if (u := _last_digit(x, FEWEST_IN_RIGHT_LINE))}
+    units: dict[Any, float] = {x: u for x in numbers if (u := last_digit(x, FEWEST_IN_RIGHT_LINE))}
     for right in rights() if units else ():
         if right.keys() != own.keys():
             continue
@@ -189,7 +189,7 @@ def _divided(
 
 
 def _is_rounded_from(number: sp.Expr, value: sp.Expr) -> bool:
-    unit = _last_digit(abs(number), FEWEST_IN_RIGHT_LINE) if isinstance(number, sp.Rational) else None
+    unit = last_digit(abs(number), FEWEST_IN_RIGHT_LINE) if isinstance(number, sp.Rational) else None
     return unit is not None and abs(float(number - value)) <= 0.5000001 * unit
 
 
@@ -208,7 +208,7 @@ def _right_lines(truth: Reference) -> tuple[dict[sp.Expr, sp.Expr], ...]:
     return tuple(own for own in found if own and all(_is_finite(x) for x in own.values()))
 
 
-def _last_digit(x: Any, fewest: int) -> float | None:
+def last_digit(x: Any, fewest: int) -> float | None:
     """The unit of the last decimal of a number with enough digits; None for another one."""
     below, power = int(x.q), {2: 0, 5: 0}
     for prime in power:

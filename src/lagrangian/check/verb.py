@@ -22,6 +22,7 @@ from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
+from lagrangian.check.explain.told_truly import told_truly
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.named_accelerations import with_accelerations
@@ -206,7 +207,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked)
-    verdict = _apart(derivation, answer, fitting(_with_origins(derivation, answer, verdict, hint)))
+    verdict = _apart(derivation, answer, fitting(told_truly(_with_origins(derivation, answer, verdict, hint))))
     return _told(verdict, answer, decides.notes)
 
 

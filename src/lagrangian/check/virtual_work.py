@@ -52,6 +52,7 @@ def judged_with_work(
     if apart and not any(x.kind in ("equation", "Xi") for x in lines) and (whole := _all_forces(truth, written, works)):
         return judge([*(x for k, x in enumerate(lines) if k not in works), *whole])
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
+    wrong = wrong or {k: found for k in works if (found := _copied_forces(truth, written, written[k]))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
 
 
@@ -150,6 +151,22 @@ def _wrong_forces(truth: Reference, line: AnsweredLine, *, apart: bool) -> Itera
     if found:
         yield from _exact(truth, line, stated)
         yield from found
+
+
+def _copied_forces(truth: Reference, lines: Sequence[AnsweredLine], work: AnsweredLine) -> list[AnsweredLine]:
+    """The generalized forces that a virtual work states where the answer has the same ones below as all that act: who
+    lacks a force there has forgotten it in the virtual work."""
+    stated = _stated_forces(truth, work)
+    below = {x.name: x.expr for x in lines if x.kind == "Xi" and x.number >= work.number}
+    names = [c.name for c in truth.model.coordinates]
+    if truth.derivation.multipliers or not stated or below.keys() != set(names):
+        return []
+    every = [stated.get(i, sp.S.Zero) for i in range(truth.n)]
+    if not all(bounded.letters(x) <= truth.names for x in every):
+        return []
+    if not all(zero_everywhere(truth, below[name] - x) for name, x in zip(names, every, strict=True)):
+        return []
+    return [replace(work, kind="Xi", name=name, expr=x) for name, x in zip(names, every, strict=True)]
 
 
 def _known(truth: Reference, force: sp.Expr) -> bool:

@@ -20,6 +20,7 @@ from lagrangian.check.explain.columns_said import Senses, columns, said_of_colum
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.nearest_axes import nearest
+from lagrangian.check.explain.own_rates import said_of_length
 from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
@@ -322,6 +323,8 @@ def _parts(
     if len(lines) > 1:
         return said_of_column(truth, tuple(lines), senses)
     (line,) = lines
+    if line.kind == "equation":
+        return said_of_length(truth, line)
     return said_of_rate(truth, line) if line.kind == "identity" else said_of(truth, line, turned=id(line) in turned)
 
 

@@ -14,6 +14,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.apart import folded, told_apart
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.other_points import is_of_another_point
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
 from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told
 from lagrangian.check.explain.sense_counted import turned_to
@@ -74,6 +75,7 @@ def said_of_column(truth: Reference, column: Column, senses: Senses) -> Iterator
         return
     every = [(q, right, own) for q, right, own in _meanings(truth, column, said, senses)]
     elsewhere = any(_is(truth, q, right, own) for q, right, own in every)
+    elsewhere = elsewhere or is_of_another_point(truth, column[0], said)
     s = quantities_of(truth).of
     for q, right, own in every:
         effect = put(truth, _effect(s, q.owner, q.kind, own))

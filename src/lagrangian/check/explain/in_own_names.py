@@ -116,11 +116,14 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
 
 
 def _in_definitions(lines: Sequence[AnsweredLine]) -> dict[int, frozenset[str]]:
-    """The keys of the names that the definitions in each line use, and do not define."""
+    """The keys of the names that the definitions and the equations in each line use, and do not define."""
     found: dict[int, frozenset[str]] = {}
     for line in lines:
+        if line.kind in ("definition", "equation"):
+            found[line.number] = found.get(line.number, frozenset()) | names_in(line)
+    for line in lines:
         if line.kind == "definition":
-            found[line.number] = found.get(line.number, frozenset()) | (names_in(line) - {key(line.name or "")})
+            found[line.number] -= {key(line.name or "")}
     return found
 
 
@@ -310,12 +313,23 @@ def _with(expr: sp.Expr, name: OwnName) -> sp.Expr:
         for value, symbol in forms.items():
             if built == value:
                 built = symbol
+            elif isinstance(value, sp.Pow) and isinstance(built, (sp.Pow, sp.Add)):
+                built = _power(built, value, symbol)
             elif isinstance(value, sp.Add) and isinstance(built, sp.Add):
                 built = _some_terms(built, value, symbol)
             elif isinstance(value, sp.Mul) and isinstance(built, (sp.Mul, sp.Pow)):
                 built = _some_factors(built, value, symbol)
         made[id(node)] = built
     return cast("sp.Expr", made[id(expr)])
+
+
+def _power(found: sp.Expr, value: sp.Pow, symbol: sp.Expr) -> sp.Expr:
+    """A power of a name for one of what its value is a power of: 1/l² for 1/(a² + d²), l = √(a² + d²)."""
+    (base, own), (of, exponent) = found.as_base_exp(), value.as_base_exp()
+    if isinstance(base, sp.Pow) and base.base == symbol:  # its own base is put in already
+        return symbol ** (base.exp * own)
+    times = own / exponent
+    return symbol**times if base == of and times.is_Integer else found
 
 
 def _some_terms(found: sp.Add, value: sp.Add, symbol: sp.Expr) -> sp.Expr:
@@ -341,7 +355,7 @@ def _some_factors(found: sp.Expr, value: sp.Mul, symbol: sp.Expr) -> sp.Expr:
     factors: Mapping[Any, Any] = value.as_powers_dict()
     own: dict[Any, Any] = {base: e for base, e in factors.items() if not base.is_Rational}
     there: dict[Any, Any] = {base: powers.get(base, sp.S.Zero) for base in own}
-    if not own or not all(e.is_Integer and e > 0 and there[base].is_Integer for base, e in own.items()):
+    if not own or not all(e.is_Rational and there[base].is_Rational for base, e in own.items()):
         return found
     times = min(int(there[base] // e) for base, e in own.items())
     return cast("sp.Expr", found / value**times * symbol**times) if times > 0 else found

@@ -34,6 +34,7 @@ from lagrangian.check.explain.line_mistakes import (
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_denominators import mistake_of
+from lagrangian.check.explain.own_rates import wrong_rates
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reasoned import as_defined, reasoned
@@ -51,6 +52,7 @@ from lagrangian.check.explain.sums_written import by_sums
 from lagrangian.check.explain.taken_as import taken_as
 from lagrangian.check.explain.term_said import beside, with_term
 from lagrangian.check.explain.undivided import undivided
+from lagrangian.check.explain.undone import Undone
 from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.explain.written_pieces import Against, WrittenPieces
 from lagrangian.check.prescribed import of_prescribed, with_prescribed
@@ -110,13 +112,13 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]
-    bodies = BodiesSaid(truth, lines, (*true, *right), _rates(truth, wrong))
+    bodies = BodiesSaid(truth, lines, (*true, *right), wrong_rates(truth, wrong))
     pool = pool_of(truth)
     pieces = WrittenPieces(pool, lines)
     if (blamed := bodies.of_all(findings, wrong)) is not None:
         return NamedMistakes(_once([reasoned(pool, p, pieces) for p in blamed.said], ()), certain=True, blamed=blamed)
     shown = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
-    against = Against(frozenset(shown), pieces)
+    against = Against(frozenset(shown), pieces, Undone(pool, findings))
     groups, own, left = list[list[Explanation]](), list[Mistake](), list[AnsweredLine]()
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
@@ -166,11 +168,6 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
-def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine]:
-    """The wrong rates of places of the answer's own, ẏ = …."""
-    return [x for x in wrong if x.kind == "identity" and x.name not in truth.model.symbols]
-
-
 def _with_definitions(
     pieces: WrittenPieces,
     line: AnsweredLine,
@@ -203,8 +200,8 @@ def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
-    told, under = explanation.told, explanation.under
-    return all(is_quotable(in_words(truth, t, under), written | cancelled(truth, t.mistake)) for t in told)
+    said = ((t, in_words(truth, t, explanation.under)) for t in explanation.told)
+    return all(is_quotable(m, written | cancelled(truth, t.mistake)) for t, m in said)
 
 
 def _without_partial(
@@ -217,9 +214,7 @@ def _without_partial(
     """
     counts = [len(found[0].told) if found else len(more) for found, more in told]
     fewest = min(counts, default=0)
-    first = {
-        id(found[0].told[0].mistake) for (found, _), count in zip(told, counts, strict=True) if found and count == 1
-    }
+    first = {id(x[0].told[0].mistake) for (x, _), count in zip(told, counts, strict=True) if x and count == 1}
     return [
         (found, more)
         for (found, more), count in zip(told, counts, strict=True)

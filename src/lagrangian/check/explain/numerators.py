@@ -65,7 +65,7 @@ def solved_row(truth: Reference, expr: sp.Expr, *, single: bool = False) -> Solv
         return None
     quotient = -cast("sp.Expr", expr.xreplace({acceleration: sp.S.Zero})) / slope
     above, below = _fraction(quotient)
-    if not several and (not below.has(sp.Add) or len(sp.Add.make_args(quotient)) > 1):
+    if not several and (not slope.is_number or not below.has(sp.Add) or len(sp.Add.make_args(quotient)) > 1):
         return None  # no numerator was written, or the equation itself was divided
     written = CompiledExpressions([cast("sp.Expr", above / below)]).at(truth.states)[0]
     rest = written - truth.accelerations[acceleration]

@@ -20,6 +20,7 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.counted_twice import TooMuch, too_much
 from lagrangian.check.explain.efforts import Effort, effort_of
 from lagrangian.check.explain.misconceptions.base import partner, put
+from lagrangian.check.explain.powers import power_between
 from lagrangian.check.explain.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.explain.search import SMALL, simple_number
 from lagrangian.check.reference import Reference, terms
@@ -146,6 +147,8 @@ def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
     if term == -right:
         return "sign_of_a_term", text("The term ", term, " has the wrong sign.")
     factors = _factors(term, right)
+    if factors is None and (divisor := power_between(term, right)) is not None:
+        return "divisor_missing", text("In the term ", term, ", one divisor ", divisor, " is missing.")
     if factors is None:
         return "term_replaced", text("The term ", term, " stands where ", right, " belongs.")
     more, less = factors

@@ -219,7 +219,7 @@ def _of_springs(s: Ingredients) -> Iterator[Sayable]:
 
         def stored(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way) -> Effect:
             V = k * (said**2 - way**2) / 2
-            return replace(_damped(s, b, s.rate(said), s.rate(way)), V=V) if b != 0 else Effect(V=V)
+            return replace(damped(s, b, s.rate(said), s.rate(way)), V=V) if b != 0 else Effect(V=V)
 
         def pulled(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way, slopes: Any = slopes) -> Effect:
             more = sp.Add(said, -way)
@@ -240,7 +240,7 @@ def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
         slopes = [bounded.diff(rate, v) for v in s.v]
 
         def worked(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate) -> Effect:
-            return _damped(s, b, _rate(s, said), rate)
+            return damped(s, b, _rate(s, said), rate)
 
         def pulled(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate, slopes: Any = slopes) -> Effect:
             return pushing(b * (_rate(s, said) - rate), slopes)
@@ -256,7 +256,7 @@ def _of_shafts(s: Ingredients) -> Iterator[Sayable]:
     for owner, w, J, same in shafts(s):
 
         def turned(said: sp.Expr, w: sp.Expr = w, J: sp.Expr = J, same: Any = same) -> Effect:
-            braked = [_damped(s, b, said, w) for e, b in same if isinstance(e, Damper)]
+            braked = [damped(s, b, said, w) for e, b in same if isinstance(e, Damper)]
             pushed = sp.Add(*[effort for e, effort in same if not isinstance(e, Damper)])
             Xi = [pushed * (bounded.diff(said, v) - bounded.diff(w, v)) for v in s.v]
             Xi = [sp.Add(x, *[b.Xi[i] for b in braked]) for i, x in enumerate(Xi)]
@@ -282,7 +282,7 @@ def _rate(s: Ingredients, said: sp.Expr) -> sp.Expr:
     return said if said.has(*s.v) else s.rate(said)
 
 
-def _damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> Effect:
+def damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> Effect:
     """What another rate of dampers adds to every Ξ_i, −b δ̇ ∂δ̇/∂ξ̇_i, and to D."""
     Xi = tuple(-b * (rate * bounded.diff(rate, v) - right * bounded.diff(right, v)) for v in s.v)
     return Effect(Xi=Xi, D=b * (rate**2 - right**2) / 2)

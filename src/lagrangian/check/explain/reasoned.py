@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
@@ -29,6 +31,8 @@ REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
 STORED = "potential"
 """The kind of quantities in which a deflection is squared."""
+IN_PLACE = " stands in place of "
+"""What stands between what is written and what belongs there."""
 SHOWN = ("component", "along", "velocity")
 """Quantities whose formulas show at once what is wrong."""
 PLACES = ("position", "height", "apart", "place", "component", "along", "velocity")
@@ -101,7 +105,19 @@ def as_defined(
     own = {p.mistake.element: p for p in said}
     told = [reasoned(pool, own[m.element], pieces) if m.element in own and m.name in OF_A_WAY else m for m in told]
     lines = [p.mistake for p in blamed.said] if blamed is not None else []
-    return tuple(m for m in told if not any(m.name != x.name and says_again(m, x) for x in lines if x in told))
+    told = [m for m in told if not any(m.name != x.name and says_again(m, x) for x in lines if x in told)]
+    return tuple(m for m in told if not any(_is_carried(m, p) for p in said))
+
+
+def _is_carried(mistake: Mistake, said: SaidWrongly) -> bool:
+    """Whether a mistake is the exchange by which a rate is wrong, in what moves with it: cos θ in place of sin θ."""
+    parts, (right, written) = mistake.what.parts, (said.words.right[0], said.words.written[0])
+    places = [k for k, x in enumerate(parts[1:-1], start=1) if x == IN_PLACE]
+    if len(places) != 1 or said.line.kind == "definition" or not isinstance(right, sp.Expr):
+        return False
+    one, other = parts[places[0] - 1], parts[places[0] + 1]
+    ratio = bounded.cancel(right / cast("sp.Expr", written))
+    return isinstance(one, sp.Expr) and bounded.cancel(ratio * one / cast("sp.Expr", other)) == 1
 
 
 def says_again(mistake: Mistake, said: Mistake) -> bool:

@@ -40,7 +40,7 @@ SAME = frozenset(
     }
 )
 """Names of mistakes in one element of which the first says no more than the second."""
-_MADE_IN = re.compile(r"\bIn the (?P<what>height|position|velocity) of (?P<of>[^,:]{1,80}'[^']{1,60}')")
+MADE_IN = re.compile(r"\bIn the (?P<what>height|position|velocity) of (?P<of>[^,:]{1,80}'[^']{1,60}')")
 """Where a mistake was made, in words: the height of particle 'bob'."""
 SECOND = " Or: "
 """What stands before a second reason."""
@@ -63,14 +63,14 @@ def fitting(verdict: Verdict) -> Verdict:
     wrong = {f.line.kind for f in verdict.findings if f.status is Status.WRONG}
     right = {f.line.kind for f in verdict.findings if f.status.right} - wrong
     signs = any(_family(m) == "sign" for m in verdict.mistakes)
-    notes = _right_notes(verdict)
+    notes = right_notes(verdict)
     others = [
         m
         for m in verdict.alternatives
-        if not (missing and _is_of_what_is_there(m))
-        and not (signs and _is_of_what_is_there(m) and _family(m) != "sign")
+        if not (missing and is_of_what_is_there(m))
+        and not (signs and is_of_what_is_there(m) and _family(m) != "sign")
         and not (right.intersection(STATED.get(m.step, ())) and _is_of_energy(m))
-        and not _is_stated(str(m.what), notes)
+        and not is_stated(str(m.what), notes)
     ]
     told = (_without_right(m, verdict) for m in verdict.mistakes)
     return replace(verdict, mistakes=tuple(told), alternatives=distinct(others, verdict.mistakes))
@@ -78,7 +78,7 @@ def fitting(verdict: Verdict) -> Verdict:
 
 def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
     """A mistake without a second reason in what a right line states: Or: In the velocity of …"""
-    notes = _right_notes(verdict)
+    notes = right_notes(verdict)
     parts = mistake.what.parts
     place = parts.index(SECOND) if SECOND in parts else len(parts) - 1
     reason = str(parts[place + 1]) if place + 1 < len(parts) else ""
@@ -86,14 +86,14 @@ def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
     return replace(mistake, what=text(*parts[:place])) if contradicts else mistake
 
 
-def _right_notes(verdict: Verdict) -> list[str]:
+def right_notes(verdict: Verdict) -> list[str]:
     """What the right definitions of an answer are: the speed of the bob."""
     return [str(f.note) for f in verdict.findings if f.line.kind == "definition" and f.status.right and f.note]
 
 
-def _is_stated(said: str, notes: Sequence[str]) -> bool:
+def is_stated(said: str, notes: Sequence[str]) -> bool:
     """Whether the position or the velocity in which a mistake is said to be is stated by right lines."""
-    if (found := _MADE_IN.search(said)) is None:
+    if (found := MADE_IN.search(said)) is None:
         return False
     of = [note.removesuffix(f" of {found['of']}") for note in notes if note.endswith(f" of {found['of']}")]
     if found["what"] == "velocity":
@@ -111,7 +111,7 @@ def _is_of_energy(mistake: Mistake) -> bool:
     return mistake.step != 2 or any(word in str(mistake.what) for word in ("T*", "kinetic", "velocity", "speed"))
 
 
-def _is_of_what_is_there(mistake: Mistake) -> bool:
+def is_of_what_is_there(mistake: Mistake) -> bool:
     """Whether something that is written is said to be wrong, and not that something is missing."""
     return _family(mistake) in ("sign", "function") or mistake.name in OF_WHAT_IS_THERE
 
@@ -130,7 +130,7 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         return True
     if mistake.name == ANOTHER_FACTOR and mistake.element == other.element:
         return True
-    made = _MADE_IN.match(str(mistake.what)) if other.name == "gravity_forgotten" else None
+    made = MADE_IN.match(str(mistake.what)) if other.name == "gravity_forgotten" else None
     if made is not None and made["what"] == "height":
         return f"he weight of {made['of']} " in str(other.what)  # no height was written
     if (mistake.name, other.name) in SAME and mistake.element == other.element:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeAlias, cast
 
 import sympy as sp
@@ -39,7 +40,8 @@ def with_sides(verdict: Verdict) -> Verdict:
 def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
     """A mistake, with the term of which its first sentence speaks on its side."""
     parts = list(mistake.what.parts)
-    own = [f for f in roots if mistake.coordinate is not None and f.coordinate == mistake.coordinate]
+    coordinate = mistake.coordinate or _coordinate_in(parts)
+    own = [f for f in roots if coordinate is not None and f.coordinate == coordinate]
     begins = parts[0] if parts and isinstance(parts[0], str) else ""
     if len(own) != 1 or len(parts) < 3 or begins not in (THE_TERM, IN_THE_TERM) or not isinstance(parts[1], sp.Expr):
         return mistake
@@ -47,7 +49,7 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
     after = "".join(x for x in parts[2 : end + 1] if isinstance(x, str))
     written = sp.S.Zero if MISSING in after and begins == THE_TERM else parts[1]
     line = own[0].line
-    side, said = on_side(line, TermDifference("", parts[1], written, mistake.coordinate))
+    side, said = on_side(line, TermDifference("", parts[1], written, coordinate))
     inside, named = begins == IN_THE_TERM, EQUATION in after
     clear = named and side == LEFT and (inside or ON_LEFT in after)
     if clear or (not side and (named or len(roots) == 1)):
@@ -56,6 +58,12 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
         parts = [*_turned(parts[: end + 1]), *parts[end + 1 :]]
     where = f"In {line.title}{f', {side}' if side else ''}{':' if inside else ','} "
     return replace(mistake, what=text(where + begins[:1].lower() + begins[1:], *parts[1:]))
+
+
+def _coordinate_in(parts: Sequence[Part]) -> str | None:
+    """The coordinate whose equation a sentence on a term names."""
+    found = (x for before, x in pairwise(parts) if isinstance(before, str) and before.endswith(EQUATION))
+    return next((str(getattr(x, "func", x)) for x in found), None)
 
 
 def _turned(parts: Sequence[Part]) -> Iterator[Part]:

@@ -7,6 +7,7 @@ happens to be as large. And who writes ½ (m r²) ω² has not left out the ½ o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -18,6 +19,7 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.search import Explanation, Told, without_constant
+from lagrangian.check.explain.undone import Undone
 from lagrangian.check.rows import same_values
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -245,10 +247,11 @@ class WrittenPieces:
 @dataclass(frozen=True, eq=False)
 class Against:
     """What an answer says against explanations: the ``mistakes``, by their identity, that would show in a right line,
-    and its terms as they are written."""
+    its terms as they are written, and the terms in which its wrong lines differ."""
 
     mistakes: frozenset[int]
     pieces: WrittenPieces
+    undone: Undone
 
     def speaks(self, told: Told) -> bool:
         """Whether anything speaks against a mistake."""
@@ -256,15 +259,15 @@ class Against:
 
     def unopposed(self, found: Sequence[Explanation]) -> list[Explanation]:
         """The explanations that nothing speaks against."""
-        return [e for e in found if not any(self.speaks(t) for t in e.told)]
+        return [e for e in found if not any(self.speaks(t) for t in e.told) and not self.undone.holds(e)]
 
     def also(self, mistakes: Set[int]) -> Against:
         """The same with more mistakes that would show in a right line."""
-        return Against(self.mistakes | mistakes, self.pieces)
+        return replace(self, mistakes=self.mistakes | mistakes)
 
     def only(self, mistakes: Set[int]) -> Against:
         """The same with these alone as the mistakes that would show in a right line."""
-        return Against(frozenset(mistakes), self.pieces)
+        return replace(self, mistakes=frozenset(mistakes))
 
 
 def _turns(told: Told) -> bool:

@@ -21,6 +21,12 @@ _DECLARED = re.compile(
     rf"|(?P<open>\()?{_D}(?P<over>{_NAME})[ ]?/[ ]?{_D}(?P<under>{_NAME})(?![\w'’′\u0307\u0308(])(?(open)\)))"
     r"(?P<behind>[ \t]*+&?[ \t]*+(?:=|(?=[,;.:\n$)]|\\\]|\\\)|\\\\|\\q?quad|\\end|\Z)))"
 )
+_IN_WORDS = re.compile(
+    rf"(?<![\w\\'’′^*/+)}}\]−-])(?P<name>{_NAME})[ ]?['’′][ ]{{1,2}}(?:(?:is|be|for|as)[ ])?(?:its|the)[ ]"
+    rf"(?:derivative|slope)(?:[ ]of[ ](?P<over>{_NAME}))?[ ](?:with[ ]respect[ ]to|by|w\.?r\.?t\.?)[ ]"
+    rf"(?P<under>{_NAME})(?![\w'’′\u0307\u0308(])"
+)
+"""The same in words: q' its derivative with respect to θ."""
 _IN_COMMAND = re.compile(r"\\[A-Za-z]*\Z")
 """What makes a letter the end of a command."""
 _MOST = 12
@@ -35,9 +41,9 @@ def with_declared_slopes(
     ``moves`` says whether a name is a coordinate, ``taken`` whether the system has a name.
     """
     found: dict[str, re.Match[str]] = {}
-    for match in islice(_DECLARED.finditer(text.text[:_LONGEST]), _MOST):
-        over, by = match["above"] or match["over"], match["below"] or match["under"]
-        at = match["at"] or by
+    declared = (*_DECLARED.finditer(text.text[:_LONGEST]), *_IN_WORDS.finditer(text.text[:_LONGEST]))
+    for match in islice(declared, _MOST):
+        over, by, at = _parts(match)
         fits = _key(over) == _key(match["name"]) and _key(at) == _key(by) and moves(_bare(by))
         rated = re.search(rf"(?<!\w){re.escape(match['name'])}[ ]?=[ ]?(?:\\dot|\w{{1,15}}['’′])", text.text)
         fits = fits and rated is None  # v = x' is a rate, and v' its rate
@@ -45,10 +51,10 @@ def with_declared_slopes(
             found.setdefault(match["name"], match)
     edits: list[Edit] = []
     for name, match in found.items():
-        by = match["below"] or match["under"]
+        by = _parts(match)[1]
         slope = f"{name}_{{slope}}" if latex else f"{name}_slope"
         first, second = (rf"\frac{{\partial {x}}}{{\partial {by}}}" if latex else f"∂{x}/∂{by}" for x in (name, slope))
-        goes_on = "=" in match["behind"]
+        goes_on = "=" in match.groupdict().get("behind", "")
         apart_by = ", \\quad" if latex else ","
         edits.append((*match.span(), f"{slope} = {first}{f'{apart_by} {first} =' if goes_on else ''}"))
         applied = rf"(?:[ ]?(?:\\left)?\([ ]?{re.escape(by)}[ ]?(?:\\right)?\))?"
@@ -66,6 +72,13 @@ def with_declared_slopes(
         shown = "ℓ" if _bare(name) == "ell" else _bare(name)
         told.setdefault(f"{shown}' was read as the slope of {shown} by {_bare(by)}, as the answer says.")
     return text.edited(apart(sorted(edits)))
+
+
+def _parts(match: re.Match[str]) -> tuple[str, str, str]:
+    """Of what a declared slope is, by what, and at what it is taken."""
+    said = match.groupdict()
+    by = said.get("below") or match["under"]
+    return said.get("above") or match["over"] or match["name"], by, said.get("at") or by
 
 
 def _bare(name: str) -> str:

@@ -1,0 +1,122 @@
+"""The last gate before a mistake is told: nothing that the lines of the answer refute.
+
+A mistake that leads to the same equations may not be what was done. It is refuted if it blames a line that is right, or
+a quantity that a right line states, or if it says that something which is written is wrong where terms are only
+missing. Then another mistake that explains as much is told or, if there is none, the terms that differ.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
+from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
+from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.page.formula import text
+
+COUNTING = ("element_forgotten", "gravity_forgotten", "translation_forgotten", "rotation_forgotten", "element_twice")
+"""Names of mistakes by which one of several equal bodies counts no time or twice."""
+WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
+EITHER = " or "
+"""What stands between the names of several equal bodies in one of which a mistake is."""
+_BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
+"""How words begin that blame a line."""
+_TAKEN = re.compile(r"The (?P<what>[^:,.]{1,60} of [^:,]{1,60}'[^']{1,60}') (?:is|are) taken as ")
+"""How words begin that blame a quantity."""
+
+
+def told_truly(verdict: Verdict) -> Verdict:
+    """The verdict on a wrong answer, with mistakes that no line refutes."""
+    if verdict.status is not Status.WRONG or verdict.hint == 0 or not verdict.mistakes:
+        return verdict
+    mistakes = [_without_refuted_reason(m, verdict) for m in verdict.mistakes]
+    refuted = [_is_refuted(m, verdict) for m in mistakes]
+    if not any(refuted):
+        return replace(verdict, mistakes=tuple(mistakes))
+    either = set((mistakes[0].element or "").split(EITHER)) if EITHER in (mistakes[0].element or "") else set[str]()
+    others = [m for m in verdict.alternatives if not _is_refuted(m, verdict) and m.element not in either]
+    kept: list[Mistake] = []
+    for k, (m, false) in enumerate(zip(mistakes, refuted, strict=True)):
+        if not false:
+            kept.append(m)
+        elif k == 0 and others:
+            kept.append(others[0])
+        else:
+            kept += _terms_of(m, verdict)
+    told = {str(m.what): m for m in kept}
+    left = tuple(m for m in others if str(m.what) not in told)
+    return replace(verdict, mistakes=tuple(told.values()), alternatives=left)
+
+
+def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether the lines of an answer speak against a mistake."""
+    said = str(mistake.what)
+    if (blamed := _BLAMES.match(said)) is not None:
+        own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
+        return bool(own) and all(f.status.right for f in own)
+    if (
+        EITHER in (mistake.element or "")
+        and mistake.name not in COUNTING
+        and len(_differing(mistake, verdict)) <= MOST_TOLD
+    ):
+        return True  # which of several equal bodies moves otherwise than the others is written nowhere
+    return _is_of_right_quantity(said, verdict) or (is_of_what_is_there(mistake) and _only_lacks(mistake, verdict))
+
+
+def _is_of_right_quantity(said: str, verdict: Verdict) -> bool:
+    """Whether a sentence blames a quantity that a right line states."""
+    notes = right_notes(verdict)
+    if (made := MADE_IN.match(said)) is not None:
+        return is_stated(made[0], notes)
+    taken = _TAKEN.match(said)
+    return taken is not None and f"the {taken['what']}" in notes
+
+
+def _without_refuted_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
+    """A mistake without a reason that the lines refute: the term is certain, the reason is not."""
+    parts = mistake.what.parts
+    place = next((k for k, x in enumerate(parts) if isinstance(x, str) and REASON in x), None)
+    if place is None:
+        return mistake
+    before, _, after = str(parts[place]).partition(REASON)
+    reason = str(text(after, *parts[place + 1 :]))
+    if not _is_of_right_quantity(reason, verdict):
+        return mistake
+    return replace(mistake, what=text(*parts[:place], before))
+
+
+def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether the lines in which a mistake shows lack terms, and differ in nothing else."""
+    kinds = {d.kind for _, d in _differing(mistake, verdict)}
+    open_ones = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    compared = {f.line.title for f in open_ones if f.differences}
+    return kinds == {"missing"} and all(f.line.title in compared for f in open_ones)
+
+
+def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDifference]]:
+    """The terms that differ in the lines that follow from none, and that come from the element of a mistake."""
+    titles = set((mistake.element or "").replace(" and ", EITHER).split(EITHER))
+    roots = (f for f in verdict.findings if f.status is Status.WRONG and not f.follows)
+    every = [(f, d) for f in roots for d in f.differences]
+    return [(f, d) for f, d in every if mistake.element is None or titles & {o.element for o in d.origins}]
+
+
+def _terms_of(mistake: Mistake, verdict: Verdict) -> list[Mistake]:
+    """The terms that differ where a mistake was said to be, or what is certain of them if they are many."""
+    terms = _differing(mistake, verdict) or _differing(replace(mistake, element=None), verdict)
+    if len(terms) <= MOST_TOLD:
+        return [_term(f, d) for f, d in terms]
+    titles = " and ".join(dict.fromkeys(f.line.title for f, _ in terms))
+    said = f"In {titles}, the terms that come from {mistake.element} are not right."
+    return [replace(mistake, name="terms_alone", what=text(said), brief=text(said))] if mistake.element else []
+
+
+def _term(finding: Finding, difference: TermDifference) -> Mistake:
+    """A term that differs, as a mistake; one that only has letters which are there is a double product."""
+    told = term_mistake(finding, difference)
+    double = finding.line.kind in ("T", "L") and difference.written == 0
+    letters = letters_in(difference.term) <= letters_in(finding.line.expr)
+    return replace(told, why=WHY_DOUBLE) if double and letters else told
