@@ -68,3 +68,35 @@ def test_a_relation_in_letters_stands_beside_an_answer_in_numbers(relation: str)
     assert not wheel().check(f"{relation}\n{energies.replace('0.82', '0.72')}\n{NUMBERS}", hint=0).right
     wrong = relation.replace("R", "2 R").replace("0.5", "0.6")
     assert not wheel().check(f"{wrong}\n{energies}\n{NUMBERS}", hint=0).right
+
+
+@cache
+def ramp() -> lg.Derivation:
+    """A mass on a ramp of a turntable, at the distance r that the system defines by s."""
+    s = lg.System("ramp on a turntable")
+    theta, u = s.coordinates("theta s")
+    J, m, a, beta, k = s.parameters("J m a beta k")
+    r = s.define("r", a + u * sp.cos(beta))
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(m, at=s.point("P", (r * sp.cos(theta), r * sp.sin(theta), u * sp.sin(beta))), name="mass")
+    s.spring(k, deflection=u)
+    return s.derive()
+
+
+PLAIN = """I = J + m r(s)^2 with r = a + s cos(beta)
+
+I θ'' + 2 m r cos β s' θ' = 0
+
+m s'' - m r θ'^2 cos β + k s = 0"""
+MARKED = r"""$I(s) = J + m\,r(s)^2$ with $r = a + s\cos\beta$.
+
+$$I \ddot\theta + 2 m r \cos\beta \dot s \dot\theta = 0$$
+
+$$m \ddot s - m r \dot\theta^2 \cos\beta + k s = 0$$"""
+
+
+@pytest.mark.parametrize("answer", [PLAIN, MARKED])
+def test_a_quantity_of_the_system_is_itself_with_its_coordinate(answer: str) -> None:
+    assert ramp().check(answer).right
+    assert not ramp().check(answer.replace("r(s)^2", "r(s)")).right
+    assert not ramp().check(answer.replace("2 m r", "m r")).right

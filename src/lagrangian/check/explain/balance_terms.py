@@ -195,8 +195,8 @@ def _missing(
     forces: Sequence[sp.Basic],
     laws: Laws,
 ) -> Iterator[Mend]:
-    """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are. That of a spring
-    is lacking where the rest of it stands."""
+    """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are. A spring's
+    force is lacking where the rest of it stands."""
     apart = {x for own, _ in _efforts(truth) for x in own} & laws.letters
     bases = [(cost + FOREIGN * bool(bounded.letters(x) & apart), x) for cost, x in _bases(truth, expr, forces)]
     bases += [(MISSING, x) for x in laws.elsewhere]
