@@ -24,11 +24,18 @@ def told(answer: str) -> str:
     ("above", "which"),
     [
         ("Forces on the puck: centrifugal m r φ'², spring -k (r - a)\n", "line 1 above it was not judged"),
+        ("Spring on the puck: -k (r - a)\nMotor: M\n", "lines 1 and 2 above it were not judged"),
+        ("The motor gives the rod the moment k phi.\n", "line 1 above it was not judged"),
+        ("- the puck: $-m r^2$\n", "line 1 above it was not judged"),
+        ("**Names**: $k_1 = k + m$, $v = r'$\n", "line 1 above it was judged only in part"),
+        ("**Names**: $k_1 = k + m$\n", "line 1 above it was not judged"),
+        ("kinetic: m r'^2 for the puck, with w = phi'\n", "line 1 above it was not judged"),
         ("| part | speed |\n|---|---|\n| puck, along | r' |\n| puck, across | r φ' |\n", "above it were not judged"),
     ],
 )
 def test_a_formula_without_a_verdict_may_be_the_first(above: str, which: str) -> None:
-    said = told(f"{above}{WRONG}\n{SECOND}")
+    wrong = WRONG.replace("k (r", "k_1 (r") if "k_1" in above else WRONG
+    said = told(f"{above}{wrong}\n{SECOND}")
     assert "of what was judged, that is the first that is not right;" in said and which in said
     assert FIRST not in said
 
@@ -38,6 +45,9 @@ def test_a_formula_without_a_verdict_may_be_the_first(above: str, which: str) ->
     [
         "",
         "The rod turns by phi, and the puck is at r.\n",
+        "I = J + m r^2\n",
+        "Exercise: 4\n",
+        "Given: the rod turns, a puck slides on it\n",
         "T = 1/2 m (r'^2 + r^2 phi'^2)\n  + 1/2 J phi'^2\nV = 1/2 k (r - a)^2\n",
         "$$T = \\frac12 m (\\dot r^2 + r^2 \\dot\\varphi^2)\n + \\frac12 J \\dot\\varphi^2$$\n".replace(
             "varphi", "phi"

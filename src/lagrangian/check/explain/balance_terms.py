@@ -232,9 +232,10 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
             found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
     for own, whole in _efforts(truth):
-        if 1 < terms(whole) <= MOST_TERMS:
+        apart = bounded.expand(whole)
+        if 1 < terms(apart) <= MOST_TERMS:
             found.setdefault(whole, MISSING)
-            for t in sp.Add.make_args(whole) if own & bounded.letters(expr) else ():
+            for t in sp.Add.make_args(apart) if own & bounded.letters(expr) else ():
                 found.setdefault(cast("sp.Expr", -t if t.could_extract_minus_sign() else t), MISSING)
     for m in masses:
         for kind in kinds:
@@ -248,9 +249,9 @@ def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
     model = truth.model
     for e in [x for x in model.elements if isinstance(x, (Spring, Damper))][:MOST_LAWS]:
         if isinstance(e, Spring) and e.k is not None:
-            yield bounded.letters(truth.expand(e.k)), bounded.expand(truth.expand(e.k * e.extension(model)))
+            yield bounded.letters(truth.expand(e.k)), truth.expand(e.k * e.extension(model))
         elif isinstance(e, Damper) and e.b is not None:
-            yield bounded.letters(truth.expand(e.b)), bounded.expand(truth.expand(e.b * e.rate(model)))
+            yield bounded.letters(truth.expand(e.b)), truth.expand(e.b * e.rate(model))
 
 
 def is_mass(truth: Reference, letter: sp.Symbol) -> bool:

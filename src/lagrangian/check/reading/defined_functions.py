@@ -22,9 +22,7 @@ _STATED = re.compile(
     r"(?:\\left\s?)?\(\s?(?P<of>\\?[^\W\d_]\w{0,24})\s?(?:\\right\s?)?\)\s{0,3}&?\s{0,3}=(?!=)"
 )
 """A function that is stated; what stands before it is no factor."""
-_CALLED = re.compile(
-    r"(?<![\w\\])(?P<name>\\?[^\W\d_]\w{0,24})(?:\\left)?\((?P<of>\\?[^\W\d_]\w{0,24})(?:\\right)?\)"
-)
+_CALLED = re.compile(r"(?<![\w\\])(?P<name>\\?[^\W\d_]\w{0,24})(?:\\left)?\((?P<of>\\?[^\W\d_]\w{0,24})(?:\\right)?\)")
 """A name with another one right behind it in brackets."""
 _MOST = 100
 """The largest number of functions that are looked for."""
