@@ -15,6 +15,7 @@ from lagrangian.check.difference import Likeness, differences, likeness, nearest
 from lagrangian.check.explain.after_definitions import follow_from_definitions
 from lagrangian.check.explain.after_derivatives import follow_from_derivatives, with_right_derivatives
 from lagrangian.check.explain.after_given_rates import follow_from_given_rates
+from lagrangian.check.explain.after_own_rates import follow_from_own_rates
 from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
@@ -29,6 +30,7 @@ from lagrangian.check.stated import StatedQuantity, equations_follow, given, jud
 from lagrangian.check.together import right_together
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
+from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -90,6 +92,7 @@ def judged_lines(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
         findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
+        findings = follow_from_own_rates(truth, findings)
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
@@ -203,7 +206,7 @@ def _equations(
             alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
             form, right = (truth.form(x) for x in solved[j])
             others.insert(0, _differing(truth, solved[j][0], form, right, alone))
-        told = [x for x in others if x is not None]
+        told = [] if _is_kinematic(truth, line.expr) else [x for x in others if x is not None]
         if not told:
             found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
             continue
@@ -213,6 +216,16 @@ def _equations(
         name = name_of(truth, index)
         found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
     return found
+
+
+def _is_kinematic(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line has rates and lengths alone, as a squared speed, where nothing holds the coordinates together: it
+    is no equation of motion."""
+    if truth.derivation.multipliers or expr.has(*(c.acceleration for c in truth.model.coordinates)):
+        return False
+    places = [x for p in truth.model.points for x in truth.model.position(p)]
+    lengths = set[sp.Basic]().union(*(truth.expand(x).free_symbols for x in places))
+    return expr.has(sp.Derivative) and expr.free_symbols <= lengths | {time}
 
 
 def _differing(

@@ -1,0 +1,62 @@
+"""A wrong rate of a name of the answer's own is the mistake, and what holds with it follows from it.
+
+Oracle: by hand, I = J + m r² has the rate 2 m r ṙ; a bob is at x + l sin φ.
+"""
+
+from __future__ import annotations
+
+import pytest
+from small_systems import cart, rod
+
+import lagrangian as lg
+from lagrangian.check.verb import CheckedAnswer
+
+ROD = """I = J + m r^2
+d/dt [I phi'] = M
+I' = 2 m r r'
+I phi'' + 2 m r r' phi' = M
+m r'' - m r phi'^2 + k (r - a) = 0"""
+CART = """x_B = x + l sin(phi), y_B = -l cos(phi)
+x_B' = x' + l phi' cos(phi), y_B' = l phi' sin(phi)
+x_B'^2 + y_B'^2 = x'^2 + 2 l x' phi' cos(phi) + l^2 phi'^2
+T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 l x' phi' cos(phi) + l^2 phi'^2)
+V = 1/2 k x^2 - m g l cos(phi)
+(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) + k x = 0
+m l^2 phi'' + m l x'' cos(phi) + m g l sin(phi) = 0"""
+
+
+def wrong(system: lg.Derivation, answer: str) -> tuple[CheckedAnswer, dict[int, bool]]:
+    """The verdict on a wrong answer, and its wrong lines with whether they follow."""
+    verdict = system.check(answer)
+    assert not verdict.right
+    return verdict, {f.line.number: f.follows for f in verdict.findings if not f.status.right}
+
+
+def test_a_term_of_a_rate_is_told_and_the_equation_follows() -> None:
+    assert rod().check(ROD).right
+    verdict, lines = wrong(rod(), ROD.replace("2 m r", "m r"))
+    assert lines == {3: False, 4: True}
+    assert "in the term m*r*r', the factor 2 is missing" in str(verdict.mistakes[0].what).replace("Derivative", "")
+    assert len(verdict.mistakes) == 1
+
+
+def test_an_equation_that_is_wrong_otherwise_does_not_follow() -> None:
+    _, lines = wrong(rod(), ROD.replace("I' = 2 m r", "I' = m r").replace("= M\nm r''", "= -M\nm r''"))
+    assert lines == {3: False, 4: False}
+
+
+@pytest.mark.parametrize("stated", ["", "wrong speed alone"])
+def test_a_squared_speed_is_no_equation_of_motion(stated: str) -> None:
+    assert cart().check(CART).right
+    answer = CART.replace("+ 2 l x' phi' cos", "- 2 l x' phi' cos").replace("m l phi'' cos", "-m l phi'' cos")
+    answer = answer.replace("m l x'' cos", "-m l x'' cos").replace("- m l phi'^2", "+ m l phi'^2").replace("+ -", "- ")
+    answer = answer if stated else answer.replace("x_B' = x' +", "x_B' = x' -")
+    verdict, lines = wrong(cart(), answer)
+    root = 3 if stated else 2
+    assert lines == (
+        {3: False, 4: False, 6: True, 7: True} if stated else {2: False, 3: True, 4: True, 6: True, 7: True}
+    )
+    assert not next(f for f in verdict.findings if f.line.number == 3).differences
+    said = " ".join(str(verdict).split())
+    assert f"Look at line {root}: that is the first that is not right." in said
+    assert "spring" not in said and "gravity" not in said
