@@ -8,6 +8,8 @@ from __future__ import annotations
 import pytest
 from small_systems import rod
 
+import lagrangian as lg
+
 WRONG = "m r'' + m r phi'^2 + k (r - a) = 0"
 SECOND = "(J + m r^2) phi'' + 2 m r r' phi' = M"
 FIRST = "that is the first that is not right."
@@ -58,3 +60,16 @@ def test_words_and_judged_lines_leave_it_the_first(above: str) -> None:
     second = SECOND if "$" not in above else "$(J + m r^2) \\ddot\\phi + 2 m r \\dot r \\dot\\phi = M$"
     wrong = WRONG if "$" not in above else "$m \\ddot r + m r \\dot\\phi^2 + k (r - a) = 0$"
     assert FIRST in told(f"{above}{wrong}\n{second}")
+
+
+def test_numbers_that_are_worked_out_rightly_may_stand_for_something_wrong() -> None:
+    s = lg.System("swing")
+    phi = s.coordinate("phi")
+    J, M, e, k = s.parameters("J M e k", J=60.0, M=120.0, e=0.3, k=900.0)
+    s.kinetic((J + M * e**2) * phi.diff() ** 2 / 2, name="seat")
+    s.spring(k, deflection=phi)
+    right = "inertia of the seat: 60 + 120*0.09 = 70.8\n70.8 phi'' + 900 phi = 0"
+    assert s.derive().check(right).right
+    said = " ".join(str(s.derive().check(right.replace("0.09 = 70.8", "0.3 = 96").replace("70.8", "96"))).split())
+    assert "line 1 right: worked out rightly; what it stands for is not judged" in said
+    assert FIRST not in said and "line 1 above it was not judged" in said

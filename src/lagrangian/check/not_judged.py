@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.explain.row_words import is_of_numbers
 from lagrangian.check.reading import Answer, AnswerLine
 from lagrangian.check.verdict import Finding, Verdict
 from lagrangian.model import Model
@@ -64,6 +65,8 @@ def unjudged_above(text: str, verdict: Verdict, model: Model, answer: Answer) ->
             continue
         if number in above.judged:
             partly += [number] if above.lacks_a_part(number, row) else []
+        elif number in above.numbers:
+            lines += [number] if above.names_something(row) else []
         elif _squeezed(row) not in above.whole:
             formula = above.is_formula(row) and not above.is_used_rightly(number, row)
             lines += [number] if formula or above.says_what_is_used(number) else []
@@ -74,7 +77,8 @@ class _Above:
     """What is known of the lines above the first wrong one."""
 
     def __init__(self, verdict: Verdict, model: Model, answer: Answer) -> None:
-        self.judged = {f.line.number for f in verdict.findings}
+        self.judged = {f.line.number for f in verdict.findings if not is_of_numbers(f.line)}
+        self.numbers = {f.line.number for f in verdict.findings} - self.judged
         self.findings = verdict.findings
         self.whole = "".join(_squeezed(f.line.text) for f in verdict.findings)
         self.left = {_squeezed(m["text"]) for note in verdict.notes for m in _UNJUDGED.finditer(str(note))}
@@ -100,7 +104,7 @@ class _Above:
             return False
         own = set(_tokens(said["value"]))
         if not own:
-            return _NUMBER.fullmatch(said["value"]) is not None and bool(set(_words(row[: said.start()])) & self.named)
+            return _NUMBER.fullmatch(said["value"]) is not None and self.names_something(row[: said.start()])
         force = bool(own & (self.moving | self.inputs)) or _FORMULA.search(said["value"]) is not None
         return force and own <= self.letters
 
@@ -108,6 +112,10 @@ class _Above:
         one, other = (key(match[x].lstrip("\\")) for x in ("one", "other"))
         apart = match["one"] not in _ARTICLES and " " in match[0]
         return apart and {one, other} <= self.letters and bool({one, other} & self.moving) and one != other
+
+    def names_something(self, row: str) -> bool:
+        """Whether a row has a word from the title of an element."""
+        return bool(set(_words(row)) & self.named)
 
     def says_what_is_used(self, number: int) -> bool:
         """Whether a row says what a name is that the first wrong line uses, and no right one."""
