@@ -73,3 +73,16 @@ def wheels() -> lg.Derivation:
     s.damper(c, deflection=R / r * phi, name="bearing")
     s.force(s.input("M"), deflection=R / r * phi, name="motor")
     return s.derive()
+
+
+@cache
+def ramp() -> lg.Derivation:
+    """A mass on a ramp of a turntable, at the distance r that the system defines by s."""
+    s = lg.System("ramp on a turntable")
+    theta, u = s.coordinates("theta s")
+    J, m, a, beta, k = s.parameters("J m a beta k")
+    r = s.define("r", a + u * sp.cos(beta))
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(m, at=s.point("P", (r * sp.cos(theta), r * sp.sin(theta), u * sp.sin(beta))), name="mass")
+    s.spring(k, deflection=u)
+    return s.derive()

@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from small_systems import ramp
 
 import lagrangian as lg
 
@@ -68,19 +69,6 @@ def test_a_relation_in_letters_stands_beside_an_answer_in_numbers(relation: str)
     assert not wheel().check(f"{relation}\n{energies.replace('0.82', '0.72')}\n{NUMBERS}", hint=0).right
     wrong = relation.replace("R", "2 R").replace("0.5", "0.6")
     assert not wheel().check(f"{wrong}\n{energies}\n{NUMBERS}", hint=0).right
-
-
-@cache
-def ramp() -> lg.Derivation:
-    """A mass on a ramp of a turntable, at the distance r that the system defines by s."""
-    s = lg.System("ramp on a turntable")
-    theta, u = s.coordinates("theta s")
-    J, m, a, beta, k = s.parameters("J m a beta k")
-    r = s.define("r", a + u * sp.cos(beta))
-    s.kinetic(J * theta.diff() ** 2 / 2)
-    s.particle(m, at=s.point("P", (r * sp.cos(theta), r * sp.sin(theta), u * sp.sin(beta))), name="mass")
-    s.spring(k, deflection=u)
-    return s.derive()
 
 
 PLAIN = """I = J + m r(s)^2 with r = a + s cos(beta)

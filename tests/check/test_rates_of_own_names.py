@@ -6,7 +6,7 @@ Oracle: by hand, I = J + m r² has the rate 2 m r ṙ; a bob is at x + l sin φ.
 from __future__ import annotations
 
 import pytest
-from small_systems import cart, rod
+from small_systems import cart, ramp, rod
 
 import lagrangian as lg
 from lagrangian.check.verb import CheckedAnswer
@@ -60,3 +60,28 @@ def test_a_squared_speed_is_no_equation_of_motion(stated: str) -> None:
     said = " ".join(str(verdict).split())
     assert f"Look at line {root}: that is the first that is not right." in said
     assert "spring" not in said and "gravity" not in said
+
+
+RAMP = """r(s) = a + s cos(beta), r_s = ∂r/∂s = cos(beta)
+L = 1/2 J theta'^2 + 1/2 m (s'^2 + r^2 theta'^2) - 1/2 k s^2
+∂L/∂s = m r r_s theta'^2 - k s = m r cos(beta) theta'^2 - k s
+m s'' - m r cos(beta) theta'^2 + k s = 0
+(J + m r^2) theta'' + 2 m r cos(beta) s' theta' = 0"""
+
+
+def test_a_name_with_two_values_is_wrong_where_one_of_them_follows() -> None:
+    assert ramp().check(RAMP).right
+    first = RAMP.split("\n")[0]
+    slope = RAMP.replace("= cos(beta)\n", "= 1\n").replace("m r cos(beta)", "m r")
+    assert slope.startswith(first.replace("= cos(beta)", "= 1"))
+    verdict, lines = wrong(ramp(), slope)
+    assert lines == {1: False, 3: True, 4: True, 5: True}
+    assert str(verdict.mistakes[0].what) == "Line 1 is not right: cos(beta) is not 1."
+    _, lines = wrong(ramp(), slope.replace("- k s\n", "- 2 k s\n"))
+    assert lines[3] is False
+
+
+def test_small_angles_are_no_contradiction() -> None:
+    """cos φ = 1 of a coordinate may be meant as a linearization, of which nothing is said."""
+    verdict = cart().check("c = cos(phi) = 1\n" + CART.split("\n", 3)[3])
+    assert not any(f.line.number == 1 and not f.status.right for f in verdict.findings)

@@ -22,6 +22,7 @@ from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.rates_of_energies import follow_from_rates
 from lagrangian.check.explain.row_words import findings_of, name_of
+from lagrangian.check.explain.two_values import follow_from_values
 from lagrangian.check.moving_frame import with_effective_potential, with_hamiltonian
 from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
@@ -92,7 +93,7 @@ def judged_lines(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
         findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
-        findings = follow_from_own_rates(truth, findings)
+        findings = follow_from_values(truth, follow_from_own_rates(truth, findings))
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
