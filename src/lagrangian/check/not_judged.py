@@ -15,8 +15,8 @@ from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
 _FORMULA = re.compile(
-    r"[²³½¼⅓⅙⅛^*·\u0307\u0308ṙẋẏżṡ]|\\(?:d?dot|[dt]?frac|cdot)|(?<=\w)['’′](?![\w’'′])|\b(?:sin|cos|tan|sqrt)"
-    r"|(?<=[\w)])[ ][-+−][ ](?=\w)|\(\w{1,5}[-+−]\w{1,5}\)"
+    r"[²³½¼⅓⅙⅛^·\u0307\u0308ṙẋẏżṡ]|\\(?:d?dot|[dt]?frac|cdot)|(?<=\w)['’′](?![\w’'′])|\b(?:sin|cos|tan|sqrt)"
+    r"|\*(?!\{)|(?<=[\w)])[ ][-+−][ ](?=\w)|\(\w{1,5}[-+−]\w{1,5}\)"
 )
 """What no line of words has: a power, a product, a rate, a function, a sum."""
 _TOKEN = re.compile(r"\\?(?P<word>[A-Za-z]{1,30}[0-9]{0,3})|[^\x00-\x7f]")
@@ -38,6 +38,8 @@ _PLAIN = frozenset(["body", "rigid", "particle", "spring", "damper", "force", "t
 _FUNCTIONS = frozenset(["sin", "cos", "tan", "sqrt", "frac", "dfrac", "tfrac", "dot", "ddot", "left", "right", "cdot"])
 _ARTICLES = ("a", "I", "A")
 """Letters that are words as well."""
+LONGEST_PRODUCT = 5
+"""The most letters of what may be several names, mgl."""
 MOST_LINES = 400
 """Of longer answers nothing is said."""
 
@@ -166,8 +168,9 @@ def _tokens(row: str) -> Iterator[str]:
         whole = match["word"] or match[0]
         if whole in _FUNCTIONS:
             continue
-        for x in (whole, whole[:1], _RATE.sub("", whole)):
-            yield key(undotted(x)[0])
+        alone = match[0].startswith("\\") or len(whole) > LONGEST_PRODUCT
+        for x in (whole, "" if alone else whole[:1], _RATE.sub("", whole)):
+            yield from [key(undotted(x)[0])] if x else ()
 
 
 def _words(text: str) -> list[str]:
