@@ -86,3 +86,16 @@ def ramp() -> lg.Derivation:
     s.particle(m, at=s.point("P", (r * sp.cos(theta), r * sp.sin(theta), u * sp.sin(beta))), name="mass")
     s.spring(k, deflection=u)
     return s.derive()
+
+
+@cache
+def seesaw() -> lg.Derivation:
+    """A seesaw with a weight below its pivot and a counterweight above."""
+    s = lg.System("seesaw with a counterweight")
+    phi = s.coordinate("phi")
+    M, m, l, d, k, g = s.parameters("M m l d k g")
+    s.particle(m, at=s.point("S", (l * sp.sin(phi), -l * sp.cos(phi))), name="seat")
+    s.particle(M, at=s.point("C", (-d * sp.sin(phi), d * sp.cos(phi))), name="counterweight")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=phi, name="torsion bar")
+    return s.derive()

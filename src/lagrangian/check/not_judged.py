@@ -83,7 +83,7 @@ class _Above:
         self.numbers = {f.line.number for f in verdict.findings} - self.judged
         self.findings = verdict.findings
         self.whole = "".join(_squeezed(f.line.text) for f in verdict.findings)
-        self.left = {_squeezed(m["text"]) for note in verdict.notes for m in _UNJUDGED.finditer(str(note))}
+        self.left = [m["text"] for note in verdict.notes for m in _UNJUDGED.finditer(str(note))]
         self.said = [x for x in answer.lines if x.kind == "definition" and x.name]
         self.moving = {key(c.name) for c in model.coordinates}
         self.moving |= {key(str(x.name)) for x in self.said if x.rhs.has(AppliedUndef)}
@@ -133,7 +133,7 @@ class _Above:
         written = _squeezed(row)
         found = [f.line for f in self.findings if f.line.number == number]
         open_ones = {key(str(x.name)) for x in self.said if x.place.line == number} & self.asked
-        told = any(x in written and self.is_formula(x) for x in self.left)
+        told = any(_squeezed(x) in written and self.is_formula(x) for x in self.left)
         if told or open_ones - {key(str(x.name)) for x in found}:
             return True
         said = [x for x in self.said if x.place.line == number and key(str(x.name)) in self.right]
