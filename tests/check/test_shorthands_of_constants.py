@@ -28,7 +28,7 @@ def wrong_lines(system: lg.Derivation, answer: str) -> dict[int, bool]:
     ("right", "wrong", "told"),
     [
         ("m l - M d", "m l + M d", " has the wrong sign."),
-        ("m l - M d", "m l - M d^2", " should be -M*d*g"),
+        ("m l - M d", "m l - M d^2", "there is the factor d too much"),
         ("m l - M d", "2 m l - M d", ": the term "),
     ],
 )
