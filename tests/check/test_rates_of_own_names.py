@@ -85,3 +85,28 @@ def test_small_angles_are_no_contradiction() -> None:
     """cos φ = 1 of a coordinate may be meant as a linearization, of which nothing is said."""
     verdict = cart().check("c = cos(phi) = 1\n" + CART.split("\n", 3)[3])
     assert not any(f.line.number == 1 and not f.status.right for f in verdict.findings)
+
+
+SLOPES = """T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 l x' phi' cos(phi) + l^2 phi'^2)
+V = 1/2 k x^2 - m g l cos(phi)
+dV/dx = k x
+dV/dphi = m g l sin(phi)
+(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) + dV/dx = 0
+m l^2 phi'' + m l x'' cos(phi) + dV/dphi = 0"""
+
+
+def test_equations_that_name_a_wrong_slope_are_not_called_right_first() -> None:
+    assert cart().check(SLOPES).right
+    said = " ".join(str(cart().check(SLOPES.replace("m g l sin(phi)", "m g l cos(phi)"))).split())
+    assert "Look at line 4: that is the first that is not right." in said
+    assert "Your equations of motion are right" not in said
+
+
+def test_no_terms_of_another_equation_are_told_of_one_that_is_solved() -> None:
+    rows = "\n".join(CART.split("\n")[3:])
+    solved = "\n(M + m sin(phi)^2) x'' - m g sin(phi) cos(phi) - m l phi'^2 sin(phi) + k x = 0"
+    assert cart().check(rows + solved).right
+    verdict, lines = wrong(cart(), rows + solved.replace("- m l phi'^2", "+ m l phi'^2"))
+    assert lines == {5: False} or lines == {6: False}, lines
+    assert str(verdict.mistakes[0].what).startswith("In what is solved for x'' alone: ")
+    assert "phi''" not in str(verdict).split("Line by line")[1]

@@ -8,6 +8,7 @@ from lagrangian.check.coordinates.tried import new_names
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import mistakes
+from lagrangian.check.explain.numerators import without_other_terms
 from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.terms_alone import LEFT_OVER
 from lagrangian.check.judged import Judged
@@ -34,7 +35,7 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     if named.told and named.left:
         lines = [x for line in named.left for x in (line.title, ", ")][:-1]
         notes = (*notes, text(*lines, LEFT_OVER[0] if len(named.left) == 1 else LEFT_OVER[1]))
-    findings = with_wrong_definitions(verdict.findings, named.blamed)
+    findings = with_wrong_definitions(without_other_terms(verdict.findings, named.told), named.blamed)
     told = with_bodies(truth, findings, named.told)
     told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)

@@ -29,7 +29,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare, zero_everywhere
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.together import right_together
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -95,7 +95,7 @@ def judged_lines(
         findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
         findings = follow_from_values(truth, follow_from_own_rates(truth, findings))
     status, found = _overall(truth, comparison, _told_once(truth, findings))
-    motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
+    motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
 
 
@@ -128,6 +128,15 @@ def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
     rows = exprs[wrong[-1] + 1 :] if wrong else exprs
     rank = comparison.rank if rows is exprs or len(rows) < truth.n else compare(truth, rows).rank
     return len(rows) >= truth.n and rank >= truth.n
+
+
+def _use_wrong_slopes(findings: Sequence[Finding]) -> bool:
+    """Whether an equation names a derivative of an energy that has a wrong value: m s″ + dV/ds = F is right by the
+    name alone."""
+    wrong = [f.line for f in findings if f.line.kind in OWN_DERIVATIVES and f.status is Status.WRONG]
+    named = {"".join(x.text.split("=")[0].split()) for x in wrong if "=" in x.text} - {""}
+    rows = ["".join(f.line.text.split()) for f in findings if f.line.kind == "equation"]
+    return any(len(x) > 3 and x in row for x in named for row in rows)
 
 
 def _overall(
