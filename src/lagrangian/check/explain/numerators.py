@@ -31,6 +31,8 @@ MOST_COORDINATES = 3
 LONGEST = 400
 """The largest number of terms of a numerator that is examined."""
 MOST_RIGHT_TERMS = 300
+MOST_PIECES = 12
+"""The most terms of a bracket of which one may be wrong."""
 SOLVED = "In what is solved for "
 """How a mistake begins that is told of a row solved for one acceleration."""
 SURE = 3.0
@@ -171,7 +173,7 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     below = CompiledExpressions([row.below]).at(truth.states)[0]
     if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(SETS, -1), axis=1).max() > CONSTANT * np.abs(ratio).max():
         return None
-    parts = [*sp.Add.make_args(row.expr), *sp.Add.make_args(bounded.expand(row.expr))]
+    parts = [*sp.Add.make_args(row.expr), *sp.Add.make_args(bounded.expand(row.expr)), *_pieces(row.expr)]
     written = [t for t in dict.fromkeys(parts) if t != 0]
     values = CompiledExpressions(written).at(truth.states)
     listed = [(t, v) for t, v in zip(written, values, strict=True) if np.isfinite(v).all()]
@@ -186,6 +188,13 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
         if t != row.expr and number is not None and np.abs(rest - c * v).max() <= SMALL * np.abs(rest).max():
             return OwnTerm(row.i, 5, t, number)
     return found
+
+
+def _pieces(expr: sp.Expr) -> Iterator[sp.Expr]:
+    """The terms of one bracket in a product, with the rest of this as it stands: of what was put in for another one."""
+    for term in sp.Add.make_args(expr):
+        for bracket in [x for x in sp.Mul.make_args(term) if x.is_Add]:
+            yield from (cast("sp.Expr", sp.Mul(x, term / bracket)) for x in bracket.args[:MOST_PIECES])
 
 
 def _scale(truth: Reference, row: SolvedRow, M: sp.Matrix, ratio: Array) -> sp.Expr | None:
