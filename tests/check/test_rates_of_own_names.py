@@ -6,6 +6,7 @@ Oracle: by hand, I = J + m r² has the rate 2 m r ṙ; a bob is at x + l sin φ.
 from __future__ import annotations
 
 import pytest
+import sympy as sp
 from small_systems import cart, ramp, rod
 
 import lagrangian as lg
@@ -110,3 +111,28 @@ def test_no_terms_of_another_equation_are_told_of_one_that_is_solved() -> None:
     assert lines == {5: False} or lines == {6: False}, lines
     assert str(verdict.mistakes[0].what).startswith("In what is solved for x'' alone: ")
     assert "phi''" not in str(verdict).split("Line by line")[1]
+
+
+def test_a_dissipation_with_the_square_of_a_wrong_rate_follows() -> None:
+    s = lg.System("plunger")
+    phi = s.coordinate("phi")
+    J, m, r, b = s.parameters("J m r b")
+    x = s.define("x", r * sp.sin(phi))
+    s.kinetic(J * phi.diff() ** 2 / 2, name="crank")
+    s.particle(m, at=s.point("P", (x, 0)), name="plunger")
+    s.damper(b, deflection=x, name="hay")
+    right = (
+        "x = r sin(phi)\nx' = r phi' cos(phi)\nT = 1/2 (J + m r^2 cos(phi)^2) phi'^2\n"
+        "D = 1/2 b r^2 cos(phi)^2 phi'^2\n"
+        "(J + m r^2 cos(phi)^2) phi'' - m r^2 phi'^2 sin(phi) cos(phi) + b r^2 cos(phi)^2 phi' = 0"
+    )
+    assert s.derive().check(right).right
+    wrong_rate = right.replace("r phi' cos(phi)\n", "-r phi' sin(phi)\n").replace("r^2 cos(phi)^2", "r^2 sin(phi)^2")
+    verdict, lines = wrong(s.derive(), wrong_rate.replace("- m r^2 phi'^2", "+ m r^2 phi'^2"))
+    assert lines == {2: False, 3: True, 4: True, 5: True}
+    assert "But for its sign" not in str(verdict) and len(verdict.mistakes) == 1
+
+
+def test_a_slope_with_a_prime_lacks_no_rate() -> None:
+    answer = ROD.replace("I' = 2 m r r'", "I' = 2 m r, its derivative by r")
+    assert "the factor r' is missing" not in " ".join(str(rod().check(answer)).split())

@@ -12,9 +12,11 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.explain.derivative_lines import LONGEST, WHY, product_rule, replaced
+from lagrangian.check.explain.free_bodies import proportional
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import same_values, zero_everywhere
+from lagrangian.check.stated import right_value
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import Name, Total, text
@@ -27,13 +29,24 @@ SMALL = 1e-9
 
 def _is_own_rate(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a line says what the rate of a name is whose value the answer has stated."""
-    own = line.kind == "identity" and line.name is not None and line.sides is not None
-    return own and line.name not in truth.model.symbols and line.sides[0].has(sp.Derivative)  # type: ignore[index]
+    return _is_rate(line) and line.name not in truth.model.symbols
+
+
+def _is_rate(line: AnsweredLine) -> bool:
+    """Whether a line says what the rate of a name is, of the system or of the answer."""
+    return (
+        line.kind == "identity"
+        and line.name is not None
+        and line.sides is not None
+        and line.sides[0].has(sp.Derivative)
+    )
 
 
 def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
     """The one term of such a rate that is wrong; None if it is more."""
     if not _is_own_rate(truth, line) or line.sides is None or line.name is None:
+        return None
+    if not line.sides[1].has(sp.Derivative):  # q' may be meant as a slope
         return None
     right = [x for x in sp.Add.make_args(bounded.expand(truth.expand(line.sides[0]))) if x != 0]
     rest = [x for x in sp.Add.make_args(bounded.expand(cast("sp.Expr", -line.expr))) if x != 0]
@@ -53,25 +66,26 @@ def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
 def follow_from_own_rates(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with those marked that hold with wrong rates that the answer states above, or that have what these
     have too much, times a rate."""
-    roots = [f for f in findings if f.status is Status.WRONG and not f.follows and _is_own_rate(truth, f.line)]
+    roots = [f for f in findings if f.status is Status.WRONG and not f.follows and _is_rate(f.line)]
     if not roots:
         return list(findings)
     found: list[Finding] = []
     for f in findings:
         above = [x.line for x in roots if x.line.number <= f.line.number and x is not f]
         is_open = f.status is Status.WRONG and not f.follows and not any(f is x for x in roots)
-        follows = is_open and bool(above) and (_holds_with(truth, f.line, above) or _has_its_excess(truth, f, above))
+        follows = is_open and bool(above) and any(x(truth, f, above) for x in _WAYS)
         found.append(replace(f, follows=True, differences=()) if follows else f)
     return found
 
 
-def _holds_with(truth: Reference, line: AnsweredLine, said: Sequence[AnsweredLine]) -> bool:
+def _holds_with(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
     """Whether a line is true where the rates have the values that are said of them."""
+    line = finding.line
     table: dict[Any, Any] = {x.sides[0]: x.sides[1] for x in said if x.sides is not None}
     if line.sides is None or line.kind not in ("equation", "identity"):
         return False
-    put = [x.xreplace(table) for x in line.sides]
-    return tuple(put) != line.sides and zero_everywhere(truth, truth.expand(cast("sp.Expr", put[0] - put[1])))
+    left, right = (cast("sp.Expr", x.xreplace(table)) for x in line.sides)
+    return (left, right) != line.sides and zero_everywhere(truth, truth.expand(left - right))
 
 
 def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
@@ -86,3 +100,17 @@ def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredL
     factors = [np.ones_like(own), *rates]
     wrong = [sign * x * r for x in extra for r in factors for sign in (1, -1)]
     return any(same_values(a.rest[0], x, SMALL) for a in alignments(truth, [line.expr], own[None]) for x in wrong)
+
+
+def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether D is wrong by a constant times what the square of a rate has too much."""
+    line = finding.line
+    right = right_value(truth, line, None) if line.kind == "D" else None
+    pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
+    if right is None or not pairs:
+        return False
+    values = CompiledExpressions([line.expr - right, *(b**2 - a**2 for a, b in pairs)]).at(truth.states)
+    return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
+
+
+_WAYS = (_holds_with, _has_its_excess, _has_its_square)

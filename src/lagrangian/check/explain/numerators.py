@@ -194,7 +194,7 @@ def _pieces(expr: sp.Expr) -> Iterator[sp.Expr]:
     """The terms of one bracket in a product, with the rest of this as it stands: of what was put in for another one."""
     for term in sp.Add.make_args(expr):
         for bracket in [x for x in sp.Mul.make_args(term) if x.is_Add]:
-            yield from (cast("sp.Expr", sp.Mul(x, term / bracket)) for x in bracket.args[:MOST_PIECES])
+            yield from (cast("sp.Expr", x * term / bracket) for x in sp.Add.make_args(bracket)[:MOST_PIECES])
 
 
 def _scale(truth: Reference, row: SolvedRow, M: sp.Matrix, ratio: Array) -> sp.Expr | None:
