@@ -33,3 +33,69 @@ def rod() -> lg.Derivation:
     s.spring(k, deflection=r, rest=a, name="spring")
     s.torque(s.input("M"), on=phi, name="motor")
     return s.derive()
+
+
+@cache
+def rack() -> lg.Derivation:
+    """A rack on a spring that is relaxed at x = d, which a motor moves by a pinion."""
+    s = lg.System("rack and pinion")
+    x = s.coordinate("x")
+    m, J, R, k, d = s.parameters("m J R k d")
+    s.particle(m, at=s.point("C", (x, 0)), name="rack")
+    s.kinetic(J * (x.diff() / R) ** 2 / 2, name="pinion")
+    s.spring(k, deflection=x, rest=d, name="spring")
+    s.force(s.input("M"), deflection=x / R, name="motor")
+    return s.derive()
+
+
+@cache
+def cart() -> lg.Derivation:
+    """A cart on a spring with a pendulum."""
+    s = lg.System("cart with a pendulum")
+    x, phi = s.coordinates("x phi")
+    M, m, l, k, g = s.parameters("M m l k g")
+    s.particle(M, at=s.point("C", (x, 0)), name="cart")
+    s.particle(m, at=s.point("B", (x + l * sp.sin(phi), -l * sp.cos(phi))), name="bob")
+    s.spring(k, deflection=x, name="spring")
+    s.gravity((0, -1), g)
+    return s.derive()
+
+
+@cache
+def wheels() -> lg.Derivation:
+    """A drum on a torsion spring that a roller with a motor drives at its rim."""
+    s = lg.System("drum and roller")
+    phi = s.coordinate("phi")
+    A, B, R, r, k, c = s.parameters("A B R r k c")
+    s.kinetic(A * phi.diff() ** 2 / 2, name="drum")
+    s.kinetic(B * (R / r * phi.diff()) ** 2 / 2, name="roller")
+    s.spring(k, deflection=phi, name="torsion spring")
+    s.damper(c, deflection=R / r * phi, name="bearing")
+    s.force(s.input("M"), deflection=R / r * phi, name="motor")
+    return s.derive()
+
+
+@cache
+def ramp() -> lg.Derivation:
+    """A mass on a ramp of a turntable, at the distance r that the system defines by s."""
+    s = lg.System("ramp on a turntable")
+    theta, u = s.coordinates("theta s")
+    J, m, a, beta, k = s.parameters("J m a beta k")
+    r = s.define("r", a + u * sp.cos(beta))
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.particle(m, at=s.point("P", (r * sp.cos(theta), r * sp.sin(theta), u * sp.sin(beta))), name="mass")
+    s.spring(k, deflection=u)
+    return s.derive()
+
+
+@cache
+def seesaw() -> lg.Derivation:
+    """A seesaw with a weight below its pivot and a counterweight above."""
+    s = lg.System("seesaw with a counterweight")
+    phi = s.coordinate("phi")
+    M, m, l, d, k, g = s.parameters("M m l d k g")
+    s.particle(m, at=s.point("S", (l * sp.sin(phi), -l * sp.cos(phi))), name="seat")
+    s.particle(M, at=s.point("C", (-d * sp.sin(phi), d * sp.cos(phi))), name="counterweight")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=phi, name="torsion bar")
+    return s.derive()

@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from small_systems import ramp
 
 import lagrangian as lg
 
@@ -68,3 +69,22 @@ def test_a_relation_in_letters_stands_beside_an_answer_in_numbers(relation: str)
     assert not wheel().check(f"{relation}\n{energies.replace('0.82', '0.72')}\n{NUMBERS}", hint=0).right
     wrong = relation.replace("R", "2 R").replace("0.5", "0.6")
     assert not wheel().check(f"{wrong}\n{energies}\n{NUMBERS}", hint=0).right
+
+
+PLAIN = """I = J + m r(s)^2 with r = a + s cos(beta)
+
+I θ'' + 2 m r cos β s' θ' = 0
+
+m s'' - m r θ'^2 cos β + k s = 0"""
+MARKED = r"""$I(s) = J + m\,r(s)^2$ with $r = a + s\cos\beta$.
+
+$$I \ddot\theta + 2 m r \cos\beta \dot s \dot\theta = 0$$
+
+$$m \ddot s - m r \dot\theta^2 \cos\beta + k s = 0$$"""
+
+
+@pytest.mark.parametrize("answer", [PLAIN, MARKED])
+def test_a_quantity_of_the_system_is_itself_with_its_coordinate(answer: str) -> None:
+    assert ramp().check(answer).right
+    assert not ramp().check(answer.replace("r(s)^2", "r(s)")).right
+    assert not ramp().check(answer.replace("2 m r", "m r")).right

@@ -2,8 +2,8 @@
 
 Oracle: their authors, who had not seen the checker and held every answer against the model by a program of their own.
 ``exams/*.toml`` holds a model with the answers to it: ``is`` says what one is, ``planted`` what went wrong, and
-``lines`` in which lines. ``open`` marks a right answer that is not accepted so far, with the reason. ``says`` is what
-is told of a wrong one that was told something untrue before.
+``lines`` in which lines. ``open`` marks a right answer that is not accepted so far, or a wrong one that is not read,
+with the reason. ``says`` is what is told of a wrong one that was told something untrue before.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def test_right_answers_are_accepted_and_wrong_ones_are_not(system: str) -> None:
     for answer, verdict in judged(system):
         told = f"{answer['file']} is {answer['is']}: {verdict}"
         if "open" in answer:
-            assert answer["is"] == "right", told
+            assert answer["is"] == "right" or not (isinstance(verdict, CheckedAnswer) and verdict.right), told
         elif answer["is"] == "right":
             assert isinstance(verdict, CheckedAnswer) and verdict.right, told
         else:

@@ -229,3 +229,12 @@ def test_what_stands_before_a_statement_of_something_else_belongs_to_it() -> Non
     """No name is explained: the comma is left out by mistake, or a term stands behind it."""
     assert not _holds("m R^2 phi'', J phi'' + d phi' + k R^2 phi - m g R = tau")
     assert not _holds("(J + m R^2) phi'' + d phi' + k R^2 phi - m g R, q = tau")
+
+
+def test_a_force_with_an_arm_is_not_this_arm() -> None:
+    """N with the arm s says what N has; A with m g R and the value m g R say what A is."""
+    answer = "Moments: only N with the arm R.\nm R phi'' = m g - N - k R phi\nJ phi'' = tau - d phi' + N R"
+    assert "was read as R" not in str(drum().check(answer + f"\n{RIGHT}"))
+    for words in ("with", "with the value"):
+        assert accepted(drum(), f"We use A {words} m g R.\n{RIGHT.replace('m g R', 'A')}")
+        assert not accepted(drum(), f"We use A {words} 2 m g R.\n{RIGHT.replace('m g R', 'A')}")

@@ -15,7 +15,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-from sympy import cos
+from sympy import cos, sin
 
 from lagrangian import Derivation, System
 
@@ -90,3 +90,27 @@ def test_a_wrong_sign_in_a_numerator_is_quoted_as_it_was_written() -> None:
     assert [str(m.what) for m in verdict.mistakes] == [
         "In the numerator of phi'': the term M*l^2*sin(phi)*cos(phi)*phi'^2 has the wrong sign."
     ]
+
+
+def test_a_slip_in_a_bracket_that_was_put_in_is_told_by_its_term() -> None:
+    """Oracle: by hand, φ̈ from the second equation in the first one; its inertia has two masses."""
+    s = System("cart with two bobs")
+    x, phi = s.coordinates("x phi")
+    M, m, J, l, k, c = s.parameters("M m J l k c")
+    s.particle(M, at=s.point("C", (x, 0)), name="cart")
+    s.particle(m, at=s.point("B", (x + l * sin(phi), -l * cos(phi))), name="bob")
+    s.kinetic(J * phi.diff() ** 2 / 2, name="rod")
+    s.spring(k, deflection=x, name="spring")
+    s.spring(c, deflection=phi, name="torsion spring")
+    s.torque(s.input("Q"), on=phi, name="motor")
+    above = (
+        "I = J + m l^2\n(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) + k x = 0\n"
+        "I phi'' + m l x'' cos(phi) + c phi = Q\n"
+    )
+    solved = "(M + m - m^2 l^2 cos(phi)^2/I) x'' = m l phi'^2 sin(phi) - k x - (m l cos(phi)/I) [Q - c phi]"
+    assert s.derive().check(above + solved).right
+    verdict = s.derive().check(above + solved.replace("- c phi]", "+ c phi]"))
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith("In what is solved for x'' alone: the term ") and "wrong sign" in str(
+        mistake.what
+    )

@@ -7,14 +7,16 @@ from dataclasses import replace
 from lagrangian.check.coordinates.tried import new_names
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.divided_by_a_part import divided_by_a_part
 from lagrangian.check.explain.mistakes import mistakes
+from lagrangian.check.explain.numerators import without_other_terms
 from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.terms_alone import LEFT_OVER
 from lagrangian.check.judged import Judged
 from lagrangian.check.names.spelling import Spelling, not_there
 from lagrangian.check.reading import is_placeholder
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import Verdict
+from lagrangian.check.verdict import Status, Verdict
 from lagrangian.page.formula import text
 
 
@@ -27,6 +29,9 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     if verdict.hint == 0:
         return replace(verdict, notes=notes)
     named = mistakes(truth, spelling.lines, judged.findings)
+    if named.blamed is None and (part := divided_by_a_part(truth, verdict.findings)) is not None:
+        found = [replace(f, differences=()) if f.status is Status.WRONG else f for f in verdict.findings]
+        return replace(verdict, findings=tuple(found), mistakes=(part,), alternatives=(), notes=notes, sure=True)
     if too_long(truth) or not truth.tried_all:
         every = "" if too_long(truth) else "all "
         said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
@@ -34,7 +39,7 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     if named.told and named.left:
         lines = [x for line in named.left for x in (line.title, ", ")][:-1]
         notes = (*notes, text(*lines, LEFT_OVER[0] if len(named.left) == 1 else LEFT_OVER[1]))
-    findings = with_wrong_definitions(verdict.findings, named.blamed)
+    findings = with_wrong_definitions(without_other_terms(verdict.findings, named.told), named.blamed)
     told = with_bodies(truth, findings, named.told)
     told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)

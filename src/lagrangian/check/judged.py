@@ -15,12 +15,14 @@ from lagrangian.check.difference import Likeness, differences, likeness, nearest
 from lagrangian.check.explain.after_definitions import follow_from_definitions
 from lagrangian.check.explain.after_derivatives import follow_from_derivatives, with_right_derivatives
 from lagrangian.check.explain.after_given_rates import follow_from_given_rates
+from lagrangian.check.explain.after_own_rates import follow_from_own_rates
 from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.rates_of_energies import follow_from_rates
 from lagrangian.check.explain.row_words import findings_of, name_of
+from lagrangian.check.explain.two_values import follow_from_values
 from lagrangian.check.forces_in_parts import with_forces_in_parts
 from lagrangian.check.moving_frame import with_effective_potential, with_hamiltonian
 from lagrangian.check.names.own_forces import without_own_names
@@ -28,8 +30,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare, zero_everywhere
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.together import right_together
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
+from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -92,8 +95,9 @@ def judged_lines(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
         findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
+        findings = follow_from_values(truth, follow_from_own_rates(truth, findings))
     status, found = _overall(truth, comparison, _told_once(truth, findings))
-    motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
+    motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
 
 
@@ -126,6 +130,15 @@ def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
     rows = exprs[wrong[-1] + 1 :] if wrong else exprs
     rank = comparison.rank if rows is exprs or len(rows) < truth.n else compare(truth, rows).rank
     return len(rows) >= truth.n and rank >= truth.n
+
+
+def _use_wrong_slopes(findings: Sequence[Finding]) -> bool:
+    """Whether an equation names a derivative of an energy that has a wrong value: m s″ + dV/ds = F is right by the
+    name alone."""
+    wrong = [f.line for f in findings if f.line.kind in OWN_DERIVATIVES and f.status is Status.WRONG]
+    named = {"".join(x.text.split("=")[0].split()) for x in wrong if "=" in x.text} - {""}
+    rows = ["".join(f.line.text.split()) for f in findings if f.line.kind == "equation"]
+    return any(len(x) > 3 and x in row for x in named for row in rows)
 
 
 def _overall(
@@ -205,7 +218,7 @@ def _equations(
             alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
             form, right = (truth.form(x) for x in solved[j])
             others.insert(0, _differing(truth, solved[j][0], form, right, alone))
-        told = [x for x in others if x is not None]
+        told = [] if _is_kinematic(truth, line.expr) else [x for x in others if x is not None]
         if not told:
             found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
             continue
@@ -215,6 +228,16 @@ def _equations(
         name = name_of(truth, index)
         found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
     return found
+
+
+def _is_kinematic(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line has rates and lengths alone, as a squared speed, where nothing holds the coordinates together: it
+    is no equation of motion."""
+    if truth.derivation.multipliers or expr.has(*(c.acceleration for c in truth.model.coordinates)):
+        return False
+    places = [x for p in truth.model.points for x in truth.model.position(p)]
+    lengths = set[sp.Basic]().union(*(truth.expand(x).free_symbols for x in places))
+    return expr.has(sp.Derivative) and expr.free_symbols <= lengths | {time}
 
 
 def _differing(

@@ -180,7 +180,8 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     what = text(rate, " is ", right, ", not ", right - line.expr, ".")
     if right.has(*(c.symbol for c in truth.model.coordinates)):
         written = right - line.expr
-        if _is_negative(right) != _is_negative(written) and right + written != 0:  # a sense of its own
+        own = not order or not any(x.has(sp.sin, sp.cos) for x in (right, written))  # −sin θ comes of the cosine
+        if own and _is_negative(right) != _is_negative(written) and right + written != 0:  # a sense of its own
             what = text("But for its sign, ", rate, " is ", -right, ", not ", written, ".")
         brief = text(f"What {base} is, is not right.")
         return Mistake("definition_wrong", what, WHY_DEFINED, 1, None, None, brief)

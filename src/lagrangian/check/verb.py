@@ -100,7 +100,8 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     else:
         verdict = check.check(derivation, given, hint=hint)
     if written and isinstance(given, Answer) and not given.program:
-        verdict = replace(verdict, unjudged=unjudged_above(written, verdict, derivation.model))
+        above = unjudged_above(written, verdict, derivation.model, given)
+        verdict = replace(verdict, unjudged=above.lines, partly=above.partly)
     return CheckedAnswer(**vars(verdict), model=derivation.model)
 
 

@@ -211,7 +211,8 @@ class Verdict:
     ``combination[j]`` contains the factors of all right equations in equation j of the answer; ``change`` expresses the
     answer's coordinates in those of the system.
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
-    ``unjudged`` are the numbers of lines with formulas above the first wrong one that have no verdict.
+    ``unjudged`` are the numbers of lines with formulas above the first wrong one that have no verdict, ``partly`` those
+    that have one on a part of them alone.
     """
 
     status: Status
@@ -225,6 +226,7 @@ class Verdict:
     sure: bool = True
     motion: bool = False
     unjudged: tuple[int, ...] = ()
+    partly: tuple[int, ...] = ()
 
     @property
     def right(self) -> bool:

@@ -73,12 +73,17 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
 
 def _as_first(verdict: Verdict) -> tuple[str, ...]:
     """That a line is the first that is not right, or only the first of those that were judged."""
-    above = verdict.unjudged
-    if not above:
+    above, partly = verdict.unjudged, verdict.partly
+    if not above and not partly:
         return (": that is the first that is not right.",)
-    which = f"line{'s' * (len(above) > 1)} {listed([*map(str, above)])}" if len(above) <= MOST_SAID_ABOVE else "lines"
-    were = "was" if len(above) == 1 else "were"
-    return (f": of what was judged, that is the first that is not right; {which} above it {were} not judged.",)
+    said = [(above, "not judged"), (partly, "judged only in part")]
+    told = [f"{_numbered(x)} above it {'was' if len(x) == 1 else 'were'} {how}" for x, how in said if x]
+    return (f": of what was judged, that is the first that is not right; {', and '.join(told)}.",)
+
+
+def _numbered(lines: Sequence[int]) -> str:
+    """Some lines by their numbers, if they are few."""
+    return f"line{'s' * (len(lines) > 1)} {listed([*map(str, lines)])}" if len(lines) <= MOST_SAID_ABOVE else "lines"
 
 
 def _headline(verdict: Verdict) -> tuple[str | Left, ...]:

@@ -57,10 +57,12 @@ class Mend:
 
 @dataclass(frozen=True)
 class Laws:
-    """The right laws of springs and dampers, by name, that a line has, and those that only other balances have."""
+    """The right laws of springs and dampers, by name, that a line has, those that only other balances have, and the
+    letters that only others have."""
 
     here: tuple[sp.Expr, ...] = ()
     elsewhere: tuple[sp.Expr, ...] = ()
+    letters: frozenset[sp.Basic] = frozenset()
 
 
 NO_LAWS = Laws()
@@ -91,7 +93,7 @@ def mends(
         Mend(_cost(truth, w), w) for _, w in in_factors(truth, shaped[0], across) if not _is_of_centre(truth, expr, w)
     ]
     listed += _other_inertias(truth, expr, found[0], values)
-    listed += _missing(truth, expr, found[0], values, forces, laws.elsewhere)
+    listed += _missing(truth, expr, found[0], values, forces, laws)
     listed = [replace(m, cost=m.cost + OF_LAW) if _is_law(m.term, laws.here) else m for m in listed]
     return sorted(listed, key=lambda x: x.cost)
 
@@ -191,10 +193,13 @@ def _missing(
     wrong: Array,
     values: Mapping[sp.Basic, Array],
     forces: Sequence[sp.Basic],
-    laws: Sequence[sp.Expr],
+    laws: Laws,
 ) -> Iterator[Mend]:
-    """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are."""
-    bases = [*_bases(truth, expr, forces), *((MISSING, x) for x in laws)]
+    """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are. A spring's
+    force is lacking where the rest of it stands."""
+    apart = {x for own, _ in _efforts(truth) for x in own} & laws.letters
+    bases = [(cost + FOREIGN * bool(bounded.letters(x) & apart), x) for cost, x in _bases(truth, expr, forces)]
+    bases += [(MISSING, x) for x in laws.elsewhere]
     arms = list(_arms(truth, expr))
     exprs = [x for _, x in (*bases, *arms)]
     found = CompiledExpressions(exprs).at(truth.states, values)
@@ -226,27 +231,27 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
             foreign |= any(t.has(m) and not expr.has(m) for m in masses)
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
             found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
-    for x in _efforts(truth):
-        found.setdefault(x, MISSING)
+    for own, whole in _efforts(truth):
+        apart = bounded.expand(whole)
+        if 1 < terms(apart) <= MOST_TERMS:
+            found.setdefault(whole, MISSING)
+            for t in sp.Add.make_args(apart) if own & bounded.letters(expr) else ():
+                found.setdefault(cast("sp.Expr", -t if t.could_extract_minus_sign() else t), MISSING)
     for m in masses:
         for kind in kinds:
             found.setdefault(cast("sp.Expr", m * kind), MISSING + BODY + (0 if expr.has(m) else FOREIGN))
     yield from ((cost, x) for x, cost in found.items())
 
 
-def _efforts(truth: Reference) -> Iterator[sp.Expr]:
-    """The whole forces of linear springs and dampers that are sums, c (θ′ + x′/R): of one end, they stand in a balance
-    as they are."""
+def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
+    """The letters of linear springs and dampers, and their whole forces: where one is a sum, c (θ′ + x′/R), it stands
+    in a balance of one end as it is."""
     model = truth.model
     for e in [x for x in model.elements if isinstance(x, (Spring, Damper))][:MOST_LAWS]:
         if isinstance(e, Spring) and e.k is not None:
-            whole = truth.expand(e.k * e.extension(model))
+            yield bounded.letters(truth.expand(e.k)), truth.expand(e.k * e.extension(model))
         elif isinstance(e, Damper) and e.b is not None:
-            whole = truth.expand(e.b * e.rate(model))
-        else:
-            continue
-        if 1 < terms(whole) <= MOST_TERMS:
-            yield whole
+            yield bounded.letters(truth.expand(e.b)), truth.expand(e.b * e.rate(model))
 
 
 def is_mass(truth: Reference, letter: sp.Symbol) -> bool:

@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.align import LARGEST, alignments
+from lagrangian.check.explain.after_own_rates import slip_in_own_rate
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
@@ -24,6 +25,7 @@ from lagrangian.check.explain.search import (
     singles,
     without_constant,
 )
+from lagrangian.check.explain.two_values import slip_in_values
 from lagrangian.check.explain.written_pieces import Against
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
@@ -60,7 +62,7 @@ def of_line(
     if line.kind == "p" and i is not None:
         return against.unopposed(_of_momentum(pool, line, i)), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
-        slip = slip_in_rate(truth, line, lines)
+        slip = slip_in_rate(truth, line, lines) or slip_in_own_rate(truth, line) or slip_in_values(truth, line)
         return [], [slip] if slip is not None else []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
     if right is None:

@@ -21,7 +21,7 @@ from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, in_place
 from lagrangian.check.explain.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.explain.search import EXOTIC, SMALL, Explanation, simple_number, singles
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import Mistake
+from lagrangian.check.verdict import Finding, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 from lagrangian.records import dataclass
@@ -31,6 +31,10 @@ MOST_COORDINATES = 3
 LONGEST = 400
 """The largest number of terms of a numerator that is examined."""
 MOST_RIGHT_TERMS = 300
+MOST_PIECES = 12
+"""The most terms of a bracket of which one may be wrong."""
+SOLVED = "In what is solved for "
+"""How a mistake begins that is told of a row solved for one acceleration."""
 SURE = 3.0
 """A term that is missing, has the wrong sign, number or a factor too much is told before a cause further above."""
 
@@ -149,11 +153,7 @@ def said_of(truth: Reference, mistake: Mistake, expr: sp.Expr) -> Mistake:
     words = (first[:1].lower() + first[1:], *more) if isinstance(first, str) and first[:2] != "T*" else (first, *more)
     name = truth.model.coordinates[row.i].name
     several = solved_row(truth, expr) is not None
-    where = (
-        ("In what is solved for ", row.acceleration, " alone: ")
-        if several
-        else ("In the numerator of ", row.acceleration, ": ")
-    )
+    where = (SOLVED, row.acceleration, " alone: ") if several else ("In the numerator of ", row.acceleration, ": ")
     what = text(*where, *words)
     return replace(mistake, what=what, coordinate=name)
 
@@ -173,7 +173,7 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     below = CompiledExpressions([row.below]).at(truth.states)[0]
     if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(SETS, -1), axis=1).max() > CONSTANT * np.abs(ratio).max():
         return None
-    parts = [*sp.Add.make_args(row.expr), *sp.Add.make_args(bounded.expand(row.expr))]
+    parts = [*sp.Add.make_args(row.expr), *sp.Add.make_args(bounded.expand(row.expr)), *_pieces(row.expr)]
     written = [t for t in dict.fromkeys(parts) if t != 0]
     values = CompiledExpressions(written).at(truth.states)
     listed = [(t, v) for t, v in zip(written, values, strict=True) if np.isfinite(v).all()]
@@ -188,6 +188,13 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
         if t != row.expr and number is not None and np.abs(rest - c * v).max() <= SMALL * np.abs(rest).max():
             return OwnTerm(row.i, 5, t, number)
     return found
+
+
+def _pieces(expr: sp.Expr) -> Iterator[sp.Expr]:
+    """The terms of one bracket in a product, with the rest of this as it stands: of what was put in for another one."""
+    for term in sp.Add.make_args(expr):
+        for bracket in [x for x in sp.Mul.make_args(term) if x.is_Add]:
+            yield from (cast("sp.Expr", x * term / bracket) for x in sp.Add.make_args(bracket)[:MOST_PIECES])
 
 
 def _scale(truth: Reference, row: SolvedRow, M: sp.Matrix, ratio: Array) -> sp.Expr | None:
@@ -247,3 +254,12 @@ def by_numerators(pool: Pool, exprs: Sequence[sp.Expr]) -> list[tuple[sp.Expr, E
             return []
         found += [(expr, x) for x in best]
     return found
+
+
+def without_other_terms(findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Finding, ...]:
+    """The findings; where a row is explained as solved for one acceleration alone, no terms are told in which it
+    differs from an equation with several: the row is none."""
+    if not any(m.what.parts[:1] == (SOLVED,) for m in told):
+        return tuple(findings)
+    several = [f.line.kind == "equation" and len(f.differences) > 1 and not f.status.right for f in findings]
+    return tuple(replace(f, differences=()) if x else f for f, x in zip(findings, several, strict=True))

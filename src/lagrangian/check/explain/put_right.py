@@ -25,12 +25,14 @@ from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.reasoned import says_again
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
+from lagrangian.check.explain.shorthands import is_shorthand, right_values
+from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.explain.wrong_balance import balances_agree
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.reading import Answer
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ParseError
 from lagrangian.model import time
@@ -66,6 +68,31 @@ def with_wrong_name(
             put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
             if _may_mend(truth, open_ones[0].line, put) and (mended := _mended(truth, verdict, judge(put), put)):
                 return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
+    return _with_wrong_shorthand(truth, lines, answer, judge, verdict)
+
+
+def _with_wrong_shorthand(
+    truth: Reference, lines: Sequence[AnsweredLine], answer: Answer, judge: Judge, verdict: Verdict
+) -> Verdict:
+    """The verdict with a shorthand of constants that one slip makes wrong, if the lines with it are right without."""
+    first = _open(verdict)[0].line
+    known = {x.line.number for x in verdict.findings if x.status is Status.WRONG and x.line.kind == "definition"}
+    asked = [x for x in _in_question(truth, lines, first) if is_shorthand(truth, x) and x.number not in known]
+    for line in asked[:MOST_NAMES]:
+        again = _without(line, lines, answer)
+        if again is None and line.expr.is_Add:  # Me may be M e without it: its value is replaced
+            again = line.expr, answer
+        if again is None:
+            continue
+        symbol, others = again
+        own = [x for x in filled(truth, lines_of(others)) if x.number == first.number and x.text == first.text]
+        own = [x for x in own if (x.kind, x.name) == (first.kind, first.name) and x.expr.has(symbol)]
+        for value, same in right_values(truth, line, own[0], symbol) if own else ():
+            put = _with(others, {symbol: value})
+            if mended := _mended(truth, verdict, judge(put), put):
+                told = next(iter(verdict.mistakes), None) if len(verdict.mistakes) == 1 else None
+                told = None if told is None or told.element is None else told
+                return _blamed(truth, replace(verdict, mistakes=()), same[0], mended, told)
     return verdict
 
 
@@ -191,9 +218,15 @@ def _at(verdict: Verdict, *, right: bool) -> dict[tuple[int, str, int], Answered
     return {at: x for at, x, yes in zip(keys_of(lines), lines, statuses, strict=True) if yes}
 
 
-def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Sequence[AnsweredLine]) -> Verdict:
+def _blamed(
+    truth: Reference,
+    verdict: Verdict,
+    said: SaidWrongly,
+    mended: Sequence[AnsweredLine],
+    reason: Mistake | None = None,
+) -> Verdict:
     """The verdict with a wrong definition, from which the lines follow that its right value mends, and those that are
-    wrong as these are."""
+    wrong as these are; the ``reason`` is one of these."""
     below = [f.line for f in _open(verdict) if not any(f.line is x for x in mended)]
     below = [x for x, follows in zip(below, _wrong_alike(truth, mended, below), strict=True) if follows]
     later = [f.line for f in verdict.findings if f.follows]
@@ -204,6 +237,8 @@ def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Seque
         (m for m in same if m.name == said.mistake.name), said.mistake
     )  # of an energy, in which no sense shows
     told = tuple(m for m in told if not any(m is x for x in same))
+    if reason is not None:
+        first = replace(with_reason(first.what, reason), name=first.name, brief=first.brief)
     return replace(verdict, findings=findings, mistakes=(first, *told), alternatives=(), sure=True)
 
 

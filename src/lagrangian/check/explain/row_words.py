@@ -15,6 +15,7 @@ from lagrangian.page.formula import Terms, Text, text
 
 _DERIVES = re.compile(r"∂|\\partial|\bd ?[TVLℒ]\*?/d|\\mathcal ?\{?L")
 """In a line that says what a derivative of an energy is."""
+_LETTER = re.compile(r"[^\W\d_]")
 
 
 def findings_of(truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison) -> list[Finding]:
@@ -22,11 +23,18 @@ def findings_of(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
     return [_finding(truth, line, row) for line, row in zip(lines, comparison.rows, strict=True)]
 
 
+def is_of_numbers(line: AnsweredLine) -> bool:
+    """Whether a line equates nothing but numbers: 120 + 25·1.8 = 165."""
+    return line.kind == "equation" and "=" in line.text and not line.names and _LETTER.search(line.text) is None
+
+
 def _finding(truth: Reference, line: AnsweredLine, row: ReferenceRow) -> Finding:
     if row.kind is Kind.WRONG:
         return Finding(line, Status.WRONG)
     if row.kind is Kind.NOTHING and _DERIVES.search(line.text) is not None:
         return Finding(line, Status.RIGHT, text("it follows from the energies above"))
+    if row.kind is Kind.NOTHING and is_of_numbers(line):
+        return Finding(line, Status.RIGHT, text("worked out rightly; what it stands for is not judged"))
     if row.kind is Kind.NOTHING and len({side.strip() for side in line.text.split("=")}) > 1:
         return Finding(line, Status.RIGHT, text("it holds by itself, with what is stated"))
     return Finding(line, _status(row), _note(truth, row, line.expr), name_of(truth, row.index))

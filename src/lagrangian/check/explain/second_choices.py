@@ -113,7 +113,7 @@ def _is_of_energy(mistake: Mistake) -> bool:
 
 def is_of_what_is_there(mistake: Mistake) -> bool:
     """Whether something that is written is said to be wrong, and not that something is missing."""
-    return _family(mistake) in ("sign", "function") or mistake.name in OF_WHAT_IS_THERE
+    return _family(mistake) in ("sign", "function", "letter") or mistake.name in OF_WHAT_IS_THERE
 
 
 def _repeats(mistake: Mistake, other: Mistake) -> bool:

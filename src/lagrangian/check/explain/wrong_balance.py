@@ -16,8 +16,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
-from lagrangian.check.explain.balance_terms import Laws, Mend, mends, plainest
+from lagrangian.check.explain.balance_terms import Laws, Mend, is_mass, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
+from lagrangian.check.explain.either_sign import sign_in_one_of_two
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
 from lagrangian.check.explain.solved_forces import (
@@ -88,6 +89,8 @@ def with_wrong_balance(
     if solved is None:
         notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
         beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
+        if beside is None and (sign := sign_in_one_of_two(on, balances)) is not None:
+            verdict = replace(verdict, mistakes=(sign,), alternatives=(), sure=True)
         return _without_invented(balances, parts, verdict if beside is None else beside)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
     plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
@@ -245,7 +248,7 @@ def _one_blamed(
             found = mends(truth, balances.lines[i].expr, given[i], list(u), laws[i])
             if (part := parts.get(i)) is not None and part.right:
                 found = [m for m in found if _may_be(truth, part, m.term, balances.forces)]
-            if part is not None and part.moment:
+            if part is not None and part.moment and all(j in parts for j in apart):
                 found = [replace(m, cost=m.cost - MOMENT) for m in found]
             listed[i] = found
     if (best := plainest(listed)) is None:
@@ -257,11 +260,12 @@ def _one_blamed(
 
 
 def _laws_in(balances: Balances, i: int, named: Mapping[str, sp.Expr]) -> Laws:
-    """The right laws that a line has by name, and those that only others have."""
+    """The right laws that a line has by name, those that only others have, and the stiffnesses only in others."""
     own = balances.lines[i].names
     used = set[str]().union(*(x.names for x in balances.lines))
     here, elsewhere = (tuple(x for name, x in named.items() if name in some) for some in (own, used - own))
-    return Laws(here, elsewhere)
+    letters = [bounded.letters(x.expr) for x in balances.lines]
+    return Laws(here, elsewhere, frozenset(set[sp.Basic]().union(*letters) - letters[i]))
 
 
 def _may_be(truth: Reference, part: KnownPart, wrong: WrongTerm, forces: Sequence[sp.Basic]) -> bool:
@@ -296,7 +300,8 @@ def with_forces_of_below(
         return verdict
     pairs = [(symbols[key(str(x.name))], x) for x in solved]
     said = [replace(x, kind="equation", expr=name - x.expr, sides=(name, x.expr)) for name, x in pairs]
-    later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines) and x.number not in dropped]
+    from_above = [_stands_above(d, lines) and not _has_own_mass(truth, d, lines, names) for d in solved]
+    later = [x for x, below in zip(said, from_above, strict=True) if below and x.number not in dropped]
     own = [*again, *beside, *(x for x in said if x not in later)]
     kept = tuple(f for f in verdict.findings if not (f.status.right and _holds_force(f.line, numbers, names)))
     asked = replace(verdict, findings=kept)  # a balance says no more than the force that was solved from it beside it
@@ -337,6 +342,13 @@ def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an equation above a definition has its name."""
     own = key(str(line.name))
     return any(x.kind == "equation" and x.number < line.number and own in x.names for x in lines)
+
+
+def _has_own_mass(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine], names: set[str]) -> bool:
+    """Whether a definition has a mass that no equation with forces above it has: it is the balance of another body."""
+    above = [x.names for x in lines if x.kind == "equation" and x.number < line.number and x.names & names]
+    own = (p.symbol for p in truth.model.parameters if key(p.name) in line.names.difference(*above))
+    return any(is_mass(truth, x) for x in own)
 
 
 def _primes_as_names(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:

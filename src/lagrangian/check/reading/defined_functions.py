@@ -22,19 +22,29 @@ _STATED = re.compile(
     r"(?:\\left\s?)?\(\s?(?P<of>\\?[^\W\d_]\w{0,24})\s?(?:\\right\s?)?\)\s{0,3}&?\s{0,3}=(?!=)"
 )
 """A function that is stated; what stands before it is no factor."""
+_CALLED = re.compile(r"(?<![\w\\])(?P<name>\\?[^\W\d_]\w{0,24})(?:\\left)?\((?P<of>\\?[^\W\d_]\w{0,24})(?:\\right)?\)")
+"""A name with another one right behind it in brackets."""
 _MOST = 100
 """The largest number of functions that are looked for."""
 
 
 def called_definitions(text: str, names: Names) -> frozenset[str]:
-    """Return the quantities of the system that an answer states with the coordinate by which it is defined: ℓ(θ)."""
+    """Return the quantities of the system that an answer states with the coordinate by which it is defined, ℓ(θ), or
+    that it has with it where it states them without: m ρ(s)² with ρ = a + s cos β."""
     found: set[str] = set()
-    for match in islice(_STATED.finditer(text), _MOST):
+    called = (m for m in islice(_CALLED.finditer(text), _MOST) if _is_stated(m["name"], m["of"], text))
+    for match in (*islice(_STATED.finditer(text), _MOST), *called):
         name, of = written(match["name"]), written(match["of"])
         coordinate = _coordinate_of(name, names)
         if coordinate is not None and _symbol(of, names) == coordinate:
             found.add(f"{name}({of})")
     return frozenset(found)
+
+
+def _is_stated(name: str, of: str, text: str) -> bool:
+    """Whether an answer says what a name is, with a letter in its value."""
+    stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
+    return stated is not None and written(of) in {written(x) for x in _WORD.findall(stated["value"])}
 
 
 def with_slopes_of_definitions(text: TracedText, names: Names, *, latex: bool) -> TracedText:

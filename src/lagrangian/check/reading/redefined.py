@@ -58,10 +58,14 @@ def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 
 def _comparable(above: sp.Expr, value: sp.Expr) -> bool:
-    """Whether two values are expressions that can be judged: not a formula beside the number that follows from it."""
+    """Whether two values are expressions that can be judged: not a formula beside the number that follows from it. The
+    cosine of a given angle is not 1."""
     if any(is_vector(x) or any(map(is_placeholder, bounded.letters(x))) for x in (above, value)):
         return False
-    return bool(above.is_number) == bool(value.is_number) or 0 in (above, value)
+    if bool(above.is_number) == bool(value.is_number) or 0 in (above, value):
+        return True
+    number, formula = (above, value) if above.is_number else (value, above)
+    return number in (1, -1) and formula.has(sp.sin, sp.cos) and not formula.atoms(AppliedUndef)
 
 
 def _differ(above: sp.Expr, value: sp.Expr) -> bool:

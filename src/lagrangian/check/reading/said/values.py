@@ -46,6 +46,9 @@ _SAY = (
 )
 _IS = frozenset(_SAY.split())
 """Words that give a name its value."""
+_HAVING = frozenset(["with", "mit"])
+"""Words that may give a name something else than its value: the force N with the arm s."""
+_VALUE = frozenset(["value", "values", "wert", "abbreviation", "abbreviations", "abkürzung", "abkürzungen"])
 _NAMED = frozenset(
     [
         "by",
@@ -228,7 +231,9 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
             continue
         if (kind, other) == ("name", "value"):
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
-            sure = bool(lower & _IS) and not lower & {"not", "nicht"}
+            has = bool(lower & _HAVING) and between[-1].lower() not in _HAVING  # the force N with the arm s
+            has &= not (lower & _IS) - _HAVING - {"the"} and not lower & _VALUE
+            sure = bool(lower & _IS) and not has and not lower & {"not", "nicht"}
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
             yield from (
                 (a, b, sure)

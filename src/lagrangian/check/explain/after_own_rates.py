@@ -1,0 +1,116 @@
+"""Rates of names of the answer's own: which term is wrong in İ = m ρ ṡ cos β, and what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.align import alignments
+from lagrangian.check.explain.derivative_lines import LONGEST, WHY, product_rule, replaced
+from lagrangian.check.explain.free_bodies import proportional
+from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import same_values, zero_everywhere
+from lagrangian.check.stated import right_value
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.page.formula import Name, Total, text
+
+STEP = 5
+"""The step of the derivatives."""
+SMALL = 1e-9
+"""The relative size of a difference that is rounding."""
+
+
+def _is_own_rate(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line says what the rate of a name is whose value the answer has stated."""
+    return _is_rate(line) and line.name not in truth.model.symbols
+
+
+def _is_rate(line: AnsweredLine) -> bool:
+    """Whether a line says what the rate of a name is, of the system or of the answer."""
+    return (
+        line.kind == "identity"
+        and line.name is not None
+        and line.sides is not None
+        and line.sides[0].has(sp.Derivative)
+    )
+
+
+def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
+    """The one term of such a rate that is wrong; None if it is more."""
+    if not _is_own_rate(truth, line) or line.sides is None or line.name is None:
+        return None
+    if not line.sides[1].has(sp.Derivative):  # q' may be meant as a slope
+        return None
+    right = [x for x in sp.Add.make_args(bounded.expand(truth.expand(line.sides[0]))) if x != 0]
+    rest = [x for x in sp.Add.make_args(bounded.expand(cast("sp.Expr", -line.expr))) if x != 0]
+    pair = replaced(rest, right) if rest and len(right) <= LONGEST else None
+    if pair is None:
+        return None
+    written, meant = (cast("sp.Expr", sp.factor_terms(x)) for x in pair)
+    title = Total(Name(line.name))
+    name, said = term_replaced(written, meant)
+    first, *others = said.parts
+    words = str(first)
+    what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
+    why = product_rule.WHY if written == 0 else WHY
+    return Mistake(name, what, why, STEP, None, None, text("A term of ", title, " is not right."))
+
+
+def follow_from_own_rates(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with those marked that hold with wrong rates that the answer states above, or that have what these
+    have too much, times a rate."""
+    roots = [f for f in findings if f.status is Status.WRONG and not f.follows and _is_rate(f.line)]
+    if not roots:
+        return list(findings)
+    found: list[Finding] = []
+    for f in findings:
+        above = [x.line for x in roots if x.line.number <= f.line.number and x is not f]
+        is_open = f.status is Status.WRONG and not f.follows and not any(f is x for x in roots)
+        follows = is_open and bool(above) and any(x(truth, f, above) for x in _WAYS)
+        found.append(replace(f, follows=True, differences=()) if follows else f)
+    return found
+
+
+def _holds_with(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether a line is true where the rates have the values that are said of them."""
+    line = finding.line
+    table: dict[Any, Any] = {x.sides[0]: x.sides[1] for x in said if x.sides is not None}
+    if line.sides is None or line.kind not in ("equation", "identity"):
+        return False
+    left, right = (cast("sp.Expr", x.xreplace(table)) for x in line.sides)
+    return (left, right) != line.sides and zero_everywhere(truth, truth.expand(left - right))
+
+
+def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether an equation is wrong by what a rate has too much, times a rate of a coordinate or 1."""
+    line = finding.line
+    if line.kind != "equation" or len(finding.differences) > 1:
+        return False
+    rates = [truth.states.of(c.rate) for c in truth.model.coordinates]
+    own, *extra = CompiledExpressions([line.expr, *(x.expr for x in said)]).at(truth.states)
+    if not (np.isfinite(own).all() and all(np.isfinite(x).all() for x in extra)):
+        return False
+    factors = [np.ones_like(own), *rates]
+    wrong = [sign * x * r for x in extra for r in factors for sign in (1, -1)]
+    return any(same_values(a.rest[0], x, SMALL) for a in alignments(truth, [line.expr], own[None]) for x in wrong)
+
+
+def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether D is wrong by a constant times what the square of a rate has too much."""
+    line = finding.line
+    right = right_value(truth, line, None) if line.kind == "D" else None
+    pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
+    if right is None or not pairs:
+        return False
+    values = CompiledExpressions([line.expr - right, *(b**2 - a**2 for a, b in pairs)]).at(truth.states)
+    return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
+
+
+_WAYS = (_holds_with, _has_its_excess, _has_its_square)

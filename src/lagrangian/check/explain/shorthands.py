@@ -1,0 +1,104 @@
+"""Which value a shorthand of constants should have for the first wrong line to be right: μ = (m l − M d) g.
+
+The line, with the name in place of its value, is linear in it. The value is sought among those that one slip would turn
+into what is written: a sign, a factor 2, a letter too few or too many in one term.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.apart import told_apart
+from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of
+from lagrangian.check.explain.said_wrongly import InWords, SaidWrongly
+from lagrangian.check.held import held
+from lagrangian.check.reference import Reference
+from lagrangian.check.stated import index_of, right_value
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.page.formula import Name, text
+
+MOST_TERMS, MOST_LETTERS = 6, 20
+"""The most terms of a shorthand, and the most letters that may be missing in one."""
+NUMBERS = (sp.S.NegativeOne, sp.Integer(2), sp.S.Half)
+"""By what number a term may be wrong."""
+NEAR = 1e-8
+"""The relative size of what is rounding."""
+KIND = "shorthand"
+WHY = text("Go through it term by term: its sign, its factors, its powers and its unit.")
+
+
+def is_shorthand(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a definition is made of constants of the system alone, of at least two."""
+    letters = bounded.letters(line.expr)
+    own = {p.symbol for p in truth.model.parameters}
+    return line.kind == "definition" and len(letters) > 1 and letters <= own and line.name not in truth.model.symbols
+
+
+def right_values(
+    truth: Reference, line: AnsweredLine, first: AnsweredLine, symbol: sp.Expr
+) -> Iterator[tuple[sp.Expr, list[SaidWrongly]]]:
+    """The values of a shorthand ``line`` with which the ``first`` wrong line, that has its ``symbol``, may be right."""
+    found = _linear(truth, first, symbol)
+    if found is None:
+        return
+    values, slope, rest = [*_slips(truth, line.expr)], *found
+    on = held(truth) if truth.derivation.multipliers else truth
+    if on is None or not values:
+        return
+    compiled = CompiledExpressions([slope, rest, *values]).at(on.states, on.accelerations)
+    scale = np.abs(compiled[0] * compiled[2]) + np.abs(compiled[1])
+    if not np.isfinite(compiled).all() or np.abs(compiled[0]).max() <= NEAR:
+        return
+    for value, own in zip(values, compiled[2:], strict=True):
+        if (np.abs(compiled[0] * own + compiled[1]) <= NEAR * np.maximum(scale, scale.max() * NEAR)).all():
+            yield value, [_said(truth, line, value)]
+
+
+def _linear(truth: Reference, line: AnsweredLine, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """The slope of left minus right by a symbol, and the rest; None if it is not linear in it."""
+    expr = line.expr
+    if line.kind != "equation":
+        right = right_value(truth, line, index_of(truth, line.name))
+        if right is None:
+            return None
+        expr = cast("sp.Expr", expr - right)
+    mark = sp.Dummy()
+    put = cast("sp.Expr", expr.xreplace({symbol: mark}))
+    slope = bounded.diff(put, mark)
+    if slope == 0 or slope.has(mark):
+        return None
+    return slope, cast("sp.Expr", put.xreplace({mark: sp.S.Zero}))
+
+
+def _slips(truth: Reference, written: sp.Expr) -> Iterator[sp.Expr]:
+    """What a shorthand may have been meant to be."""
+    own = sp.Add.make_args(bounded.expand(written))
+    if len(own) > MOST_TERMS:
+        return
+    letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
+    held = bounded.letters(written)
+    for k, term in enumerate(own):
+        others = sp.Add(*own[:k], *own[k + 1 :])
+        for factor in (*NUMBERS, *(y for x in letters for y in (x, 1 / x))):
+            if len(own) > 1 or factor.is_number or factor.free_symbols <= held:
+                yield cast("sp.Expr", others + factor * term)
+
+
+def _said(truth: Reference, line: AnsweredLine, value: sp.Expr) -> SaidWrongly:
+    return SaidWrongly(line, Effect(), partial(_words, truth, line, value), right=value)
+
+
+def _words(truth: Reference, line: AnsweredLine, value: sp.Expr) -> InWords:
+    """What is right and what is written, in the form in which this is written."""
+    s = quantities_of(truth).of
+    shown = cast("sp.Expr", sp.factor_terms(value) if not line.expr.is_Add else value)
+    of = Sayable(KIND, None, ("value of ", Name(str(line.name))), value, lambda _: Effect())
+    letters: frozenset[sp.Basic] = frozenset(bounded.letters(value) | bounded.letters(line.expr))
+    return InWords(of, (shown,), (line.expr,), letters, told_apart(s, value, line.expr), WHY)
