@@ -20,6 +20,7 @@ from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
+from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
@@ -350,7 +351,7 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
     notes = [note for note in notes if str(note) not in named]
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
-    verdict = only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices)
+    verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(listed.values()))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from lagrangian import bounded
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
@@ -45,8 +46,11 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
 
 
 def _says_it_itself(finding: Finding, names: Collection[str]) -> bool:
-    """Whether a line is only right because one of the names has the value that it has: r ω = R φ̇."""
-    return finding.status.right and finding.line.expr == 0 and bool(finding.line.names & frozenset(names))
+    """Whether a line is only right because one of the names has the value that it has: r ω = R φ̇, ẋ = … below x = …."""
+    line = finding.line
+    if not finding.status.right or not line.names & frozenset(names):
+        return False
+    return line.expr == 0 or (line.kind == "identity" and bounded.expand(line.expr) == 0)
 
 
 def with_right_definitions(

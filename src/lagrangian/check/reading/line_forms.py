@@ -48,6 +48,14 @@ def listed_names(names: Sequence[str]) -> str:
     return f"{listed(names)} {'are' if len(names) > 1 else 'is'}"
 
 
+def forget_unused(lines: Sequence[AnswerLine], names: Names) -> None:
+    """Drop the unknown names of sides that are not judged."""
+    exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
+    used = {x for expr in exprs for x in bounded.letters(expr)}
+    for base in [base for base, u in names.unknown.items() if u.symbol not in used]:
+        del names.unknown[base]
+
+
 def says_constant(statement: Statement, names: Names) -> bool:
     """Whether a statement only says that the rate of a constant of the system is 0, which is true: Ω̇ = 0."""
     named = [found for side in statement.sides if (found := only_name(side)) is not None]
