@@ -160,3 +160,34 @@ def test_a_shortened_force_lacks_its_dampers_only_where_they_stand_elsewhere(dis
 
 def test_one_shortened_force_may_be_that_of_one_element(discs: lg.Derivation) -> None:
     assert discs.check(f"{ENERGY}Q_th = -c (th' - ph')\n{TURNING}").right
+
+
+PROGRAM = """from sympy import *
+t = symbols('t')
+M, m, l, g = symbols('M m l g')
+x = Function('x')(t)
+phi = Function('phi')(t)
+xB = x + l*sin(phi)
+yB = -l*cos(phi)
+T = M/2*x.diff(t)**2
+T += m/2*(xB.diff(t)**2 + yB.diff(t)**2)
+V = m*g*yB
+L = T - V
+for q in (x, phi):
+    print(L.diff(q.diff(t)).diff(t) - L.diff(q))
+"""
+
+
+@pytest.mark.parametrize(("right", "slip", "line"), [(" + yB.diff(t)**2", "", 9), ("T = M/2*", "T = M*", 8)])
+def test_a_sum_of_a_program_is_wrong_where_the_wrong_piece_is_added(
+    pendulum: lg.Derivation, right: str, slip: str, line: int
+) -> None:
+    assert pendulum.check(PROGRAM).right
+    found = pendulum.check(PROGRAM.replace(right, slip))
+    assert not found.right and wrong(found) == [line], found.to_text()
+    assert "added8" not in found.to_text() and "added9" not in found.to_text()
+
+
+def test_a_program_that_adds_to_what_is_there_otherwise_is_judged_as_a_whole(pendulum: lg.Derivation) -> None:
+    program = PROGRAM.replace("T = M/2", "T = 5*M/2").replace("T += m/2*", "T += -2*M*x.diff(t)**2 + m/2*")
+    assert pendulum.check(program).right
