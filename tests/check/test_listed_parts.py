@@ -191,3 +191,11 @@ def test_a_sum_of_a_program_is_wrong_where_the_wrong_piece_is_added(
 def test_a_program_that_adds_to_what_is_there_otherwise_is_judged_as_a_whole(pendulum: lg.Derivation) -> None:
     program = PROGRAM.replace("T = M/2", "T = 5*M/2").replace("T += m/2*", "T += -2*M*x.diff(t)**2 + m/2*")
     assert pendulum.check(program).right
+
+
+def test_a_line_that_is_not_judged_is_quoted_as_it_was_typed(discs: lg.Derivation) -> None:
+    answer = f"{ENERGY}A = (J th, I ph)\n{TURNING}"
+    assert "'A = (J th, I ph)' was not judged" in " ".join(discs.check(answer).to_text().split())
+    own = "Let A(th) = J + I cos(th),  A' = dA/dth = I sin(th)\n"
+    told = " ".join(discs.check(own + ENERGY + TURNING).to_text().split())
+    assert "slope" not in told and "∂A" not in told, told

@@ -15,6 +15,7 @@ import sympy as sp
 from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
+from lagrangian.check.as_typed import as_typed
 from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
@@ -354,7 +355,7 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
-    return replace(verdict, notes=tuple(listed.values()))
+    return replace(verdict, notes=tuple(as_typed(note, answer.lines) for note in listed.values()))
 
 
 def read_text(path: Path) -> str:

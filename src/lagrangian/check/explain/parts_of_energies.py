@@ -25,11 +25,15 @@ def is_added(line: AnsweredLine) -> bool:
     return line.text in ADDED.values()
 
 
-def without_parts(lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
-    """The lines without listed parts, of which nobody else uses the names, and without pieces that a program adds: so
-    nothing is told in these names."""
+def without_made_names(lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines without listed parts, of which nobody else uses the names, without pieces that a program adds, and
+    without slopes that the reader named: so nothing is told in these names."""
     listed = frozenset[str]().union(*(x.names for x in lines if is_added(x)))
-    return tuple(x for x in lines if x.kind != "definition" or not (is_piece(x.name) or key(x.name or "") in listed))
+
+    def is_made(name: str) -> bool:
+        return is_piece(name) or name.endswith("slope") or key(name) in listed
+
+    return tuple(x for x in lines if x.kind != "definition" or not is_made(x.name or ""))
 
 
 def with_parts_judged(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:

@@ -292,7 +292,7 @@ def _statements(run: Interpreter, rates: MovingNames, energies: Set[str]) -> Ite
             elif not isinstance(value, sp.Expr) or not value.args:
                 continue
             elif one.name in energies and rates.order(value) == 1:
-                *parts, (_, said) = pieces(one.name, run.stated) or [(one.line, f"{one.name} = {written(value)}")]
+                *parts, (_, said) = pieces(str(one.name), run.stated) or [(one.line, f"{one.name} = {written(value)}")]
                 yield from parts
             elif final and rates.order(value) == 2:
                 said = f"{written(value)} = 0"
