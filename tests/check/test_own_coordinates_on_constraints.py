@@ -95,7 +95,7 @@ dV/ds = -m g sin(alpha) + M g
     assert d.check(answer).right
     verdict = d.check(answer.replace("sin(alpha)", "cos(alpha)"))
     wrong = [f.line.number for f in verdict.findings if not f.status.right and not f.follows]
-    assert wrong == [2] and next(f for f in verdict.findings if f.line.number == 4).status.right
+    assert wrong == [2] and next(f for f in verdict.findings if f.line.number == 4).follows
     slip = d.check(answer.replace("+ M g\n", "- M g\n"))
     assert [f.line.number for f in slip.findings if not f.status.right and not f.follows] == [4]
 

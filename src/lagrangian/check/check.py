@@ -36,6 +36,7 @@ from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
+from lagrangian.check.explain.parts_of_energies import with_parts_judged, without_made_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.said_again import as_said_of_others
 from lagrangian.check.explain.said_in_numbers import said_in_numbers
@@ -119,13 +120,16 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     general = untrue_in_general(truth, written)
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
+        verdict = with_parts_judged(truth, written, verdict)
     if not verdict.right and hint:
         if explain:
             verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
             verdict = with_sides(with_terms_as_written(truth, verdict))
             verdict = with_fitting_advice(truth, said.lines, with_terms_as_they_stand(truth, verdict))
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
-        verdict = without_shared_signs(said_in_numbers(truth, in_own_names(truth, written, verdict)))
+        verdict = without_shared_signs(
+            said_in_numbers(truth, in_own_names(truth, without_made_names(written), verdict))
+        )
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -13,7 +13,11 @@ from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired, voted
 from lagrangian.check.explain.after_definitions import follow_from_definitions
-from lagrangian.check.explain.after_derivatives import follow_from_derivatives, with_right_derivatives
+from lagrangian.check.explain.after_derivatives import (
+    follow_from_derivatives,
+    with_consequences,
+    with_right_derivatives,
+)
 from lagrangian.check.explain.after_given_rates import follow_from_given_rates
 from lagrangian.check.explain.after_own_rates import follow_from_own_rates
 from lagrangian.check.explain.consequences import follow_from_above
@@ -96,6 +100,7 @@ def judged_lines(
         )
         findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
         findings = follow_from_values(truth, follow_from_own_rates(truth, findings))
+        findings = with_consequences(truth, findings)
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)

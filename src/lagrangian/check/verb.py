@@ -15,11 +15,13 @@ import sympy as sp
 from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
+from lagrangian.check.as_typed import as_typed
 from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
+from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.told_truly import told_truly
@@ -352,10 +354,10 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
     notes = [note for note in notes if str(note) not in named]
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
-    verdict = only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices)
+    verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
-    return replace(verdict, notes=tuple(listed.values()))
+    return replace(verdict, notes=tuple(as_typed(note, answer.lines) for note in listed.values()))
 
 
 def read_text(path: Path) -> str:

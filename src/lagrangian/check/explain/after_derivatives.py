@@ -16,7 +16,7 @@ from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import StatedQuantity, dissipation, given, index_of, right_value, spanned
-from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, Finding, Status
+from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -67,23 +67,45 @@ def with_right_derivatives(truth: Reference, findings: Sequence[Finding]) -> lis
     return [_right_derivative(truth, f, own) if f.line.kind[:1] in wrong else f for f in findings]
 
 
+def with_consequences(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with derivatives of a wrong T*, V or D of the answer that are not those of the right one as wrong
+    because of it."""
+    own = given(truth, [f.line for f in findings])
+    wrong = {f.line.kind for f in findings if f.status is Status.WRONG} & {"T", "V", "D"}
+    return [
+        replace(f, status=Status.WRONG, note=None, follows=True)
+        if f.line.kind in OWN_DERIVATIVES
+        and f.line.kind[0] in wrong
+        and f.status is Status.RIGHT
+        and (rest := _rest_of_energy(truth, f.line, own)) is not None
+        and zero_everywhere(truth, f.line.expr)
+        and not zero_everywhere(truth, rest)
+        else f
+        for f in findings
+    ]
+
+
 def _right_derivative(truth: Reference, finding: Finding, own: StatedQuantity) -> Finding:
     line = finding.line
-    i = index_of(truth, line.name)
-    if line.kind not in OWN_DERIVATIVES or finding.status is not Status.WRONG or i is None:
+    if line.kind not in OWN_DERIVATIVES or finding.status is not Status.WRONG:
         return finding
-    c = truth.model.coordinates[i]
-    energy = line.kind[0]
+    stated = -line.expr if line.kind in ("T-p", "T-slope") else line.expr  # what it has too much beside its own energy
+    if (rest := _rest_of_energy(truth, line, own)) is None or not zero_everywhere(truth, stated + rest):
+        return finding
+    letter = "T*" if line.kind[0] == "T" else line.kind[0]
+    note = text(f"the derivative of the right {letter}, not of yours")
+    return replace(finding, status=Status.RIGHT, note=note)
+
+
+def _rest_of_energy(truth: Reference, line: AnsweredLine, own: StatedQuantity) -> sp.Expr | None:
+    """What the derivative of the answer's own T*, V or D that a line gives has too much; None for no coordinate."""
+    if (i := index_of(truth, line.name)) is None:
+        return None
+    c, energy = truth.model.coordinates[i], line.kind[0]
     mine, right = getattr(own, energy), dissipation(truth) if energy == "D" else getattr(truth, energy)
     rest = (sp.S.Zero if mine is None else mine) - right
     by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
-    rest = bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
-    stated = -line.expr if line.kind in ("T-p", "T-slope") else line.expr  # what it has too much beside its own energy
-    if not zero_everywhere(truth, stated + rest):
-        return finding
-    letter = "T*" if energy == "T" else energy
-    note = text(f"the derivative of the right {letter}, not of yours")
-    return replace(finding, status=Status.RIGHT, note=note)
+    return bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
 
 
 def _is_open(finding: Finding) -> bool:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from lagrangian import bounded
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
 from lagrangian.check.explain.quantities import Sayable
-from lagrangian.check.explain.said_wrongly import PLACED, right_quantities
+from lagrangian.check.explain.said_wrongly import PLACED, SaidWrongly, right_quantities
 from lagrangian.check.explain.which_said import as_said, letters_meant
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, inserted
+from lagrangian.model import time
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
@@ -29,10 +31,12 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     ]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
     names = {key(p.line.name or "") for p in blamed.said}
+    rated = {key(p.line.name or "") for p in blamed.said if _has_wrong_rate(p)}
     numbers = {number for number, _ in lines}
-    found = [f for f in found if not (_says_it_itself(f, names) and f.line.number in numbers)]
+    found = [f for f in found if not (_says_it_itself(f, names, rated) and f.line.number in numbers)]
     found = [
-        replace(f, status=Status.WRONG, note=None, follows=True) if _says_it_itself(f, names) else f for f in found
+        replace(f, status=Status.WRONG, note=None, follows=True) if _says_it_itself(f, names, rated) else f
+        for f in found
     ]
     for line in blamed.later:
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
@@ -44,9 +48,19 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     return tuple(found)
 
 
-def _says_it_itself(finding: Finding, names: Collection[str]) -> bool:
-    """Whether a line is only right because one of the names has the value that it has: r ω = R φ̇."""
-    return finding.status.right and finding.line.expr == 0 and bool(finding.line.names & frozenset(names))
+def _says_it_itself(finding: Finding, names: Collection[str], rated: Collection[str]) -> bool:
+    """Whether a line is only right because one of the names has the value that it has, r ω = R φ̇, or one of those that
+    are ``rated`` its rate: ẋ = … below x = …."""
+    line = finding.line
+    if not finding.status.right or not line.names & frozenset(names):
+        return False
+    of_rate = line.kind == "identity" and bool(line.names & frozenset(rated))
+    return line.expr == 0 or (of_rate and bounded.expand(line.expr) == 0)
+
+
+def _has_wrong_rate(said: SaidWrongly) -> bool:
+    """Whether not only the value but also the rate of a name is wrong."""
+    return said.right is not None and bounded.expand(bounded.diff(said.line.expr - said.right, time)) != 0
 
 
 def with_right_definitions(

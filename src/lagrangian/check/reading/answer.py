@@ -74,6 +74,8 @@ class AnswerLine:
     names: frozenset[str] = field(default=frozenset(), compare=False)
     summands: Summands = field(default=(), compare=False)
     """The terms of the value, of an equation those of left minus right, as they are written; see `summands`."""
+    typed: str = field(default="", compare=False)
+    """The line as it was typed, where ``text`` is it in other letters; empty if they do not stand in one row."""
 
     @property
     def residual(self) -> sp.Expr:

@@ -24,6 +24,7 @@ from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
+_SIDE = re.compile(r"[=,;]")
 _NUMBER = re.compile(r"\s*+[(\[]?\s*+(\d{1,2})\s*+[)\]]?\s*+[.:]?\s*+")
 
 
@@ -46,6 +47,14 @@ def together(errors: Sequence[ParseError]) -> ParseError:
 def listed_names(names: Sequence[str]) -> str:
     """Several names as the subject of a sentence, with its verb: a, b and c are."""
     return f"{listed(names)} {'are' if len(names) > 1 else 'is'}"
+
+
+def forget_unused(lines: Sequence[AnswerLine], names: Names) -> None:
+    """Drop the unknown names of sides that are not judged."""
+    exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
+    used = {x for expr in exprs for x in bounded.letters(expr)}
+    for base in [base for base, u in names.unknown.items() if u.symbol not in used]:
+        del names.unknown[base]
 
 
 def says_constant(statement: Statement, names: Names) -> bool:
@@ -219,7 +228,20 @@ def made_line(
         key(x.expr.func.__name__) for x in values if isinstance(x, sp.Derivative) and isinstance(x.expr, AppliedUndef)
     }
     text, parts = " ".join(source.text.split()), _summands(kind, lhs, a, b, reader)
-    return AnswerLine(kind, lhs, rhs, name, source.at(start), text, frozenset(names | rates), parts)
+    typed = typed_as(source, text)
+    return AnswerLine(kind, lhs, rhs, name, source.at(start), text, frozenset(names | rates), parts, typed)
+
+
+def typed_as(source: Source, text: str) -> str:
+    """What was typed where a statement has another ``text``: dB/dφ for ∂B/∂φ; empty if it is the same, or unknown."""
+    first, last = source.at(0), source.at(max(len(source.text.rstrip()) - 1, 0))
+    if first.line is None or first.line != last.line or first.text is None or not first.column or not last.column:
+        return ""
+    before, found = first.text[: first.column - 1], first.text[first.column - 1 : last.column]
+    found = _SIDE.split(before)[-1] + found if found.startswith("=") else found
+    found = " ".join(found.split())
+    balanced = all(found.count(a) == found.count(b) for a, b in ("()", "[]", "{}"))
+    return found if found != text and balanced and found.count("=") == text.count("=") else ""
 
 
 def _summands(kind: Kind, lhs: sp.Expr | None, a: Tree, b: Tree, reader: Meaning) -> Summands:

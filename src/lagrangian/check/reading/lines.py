@@ -19,6 +19,7 @@ from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
     entries_of,
+    forget_unused,
     is_aside,
     is_general,
     is_rate_of,
@@ -50,6 +51,7 @@ from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
+from lagrangian.check.reading.summed_energies import PartsOfEnergies
 from lagrangian.errors import ParseError
 from lagrangian.model import Model, time
 from lagrangian.read.letters import key, undotted
@@ -67,7 +69,7 @@ class Lines:
         self.names.later = self._look_ahead
         self.budget = ReadingBudget()
         self._waiting: dict[str, int] = {}
-        self.subjects = Subjects(model, self.names)
+        self.subjects, self.energies = Subjects(model, self.names), PartsOfEnergies(model, self.names)
         self._statements: Sequence[Statement] = ()
         self._made: dict[int, list[AnswerLine]] = {}
         self._chain = 0
@@ -93,6 +95,7 @@ class Lines:
         for i in range(len(statements)):
             try:
                 self._line(i)
+                self._made[i] += self.energies.whole(i, self._made)
             except ParseError as error:
                 if complete and says_constant(statements[i], self.names):
                     continue
@@ -110,7 +113,7 @@ class Lines:
         free = len(self.model.coordinates) - len(self.model.constraints)
         if self.lacking and not does_without(self.lacking, results, lines, free):
             raise together(self.lacking[:MOST_TOLD])
-        self._forget(lines)
+        forget_unused(lines, self.names)
         self.doubts += self.lacking[:MOST_TOLD]
         self.names.notes |= dict.fromkeys(told(self.lacking, self.remarks))
         return lines
@@ -134,13 +137,6 @@ class Lines:
         """Whether the system or a statement of the answer says what a name is."""
         base = key(undotted(written)[0])
         return base in self.names.defined or base in COLUMNS or self.names.known(written)
-
-    def _forget(self, lines: Sequence[AnswerLine]) -> None:
-        """Drop the unknown names of sides that are not judged."""
-        exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
-        used = {x for expr in exprs for x in bounded.letters(expr)}
-        for base in [base for base, u in self.names.unknown.items() if u.symbol not in used]:
-            del self.names.unknown[base]
 
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
@@ -171,6 +167,7 @@ class Lines:
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
+        self.energies.gather(defining, self._statements)
 
     def _has_matrices(self, sides: Sequence[Tree]) -> bool:
         """Whether a matrix stands in a statement, or two names of matrices; M alone may be a mass."""

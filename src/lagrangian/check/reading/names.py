@@ -23,7 +23,7 @@ from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
-from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate, own_kinetic
+from lagrangian.check.reading.stated import NamedForces, energy_of, force_of, of_coordinate, own_kinetic
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
@@ -91,8 +91,7 @@ class Names:
         """The rates that letters of the answer are unless it says what they are: i of a charge q."""
         self.headed: dict[int, str] = {}
         """The headings that say of which quantity the items of a list are, by the numbers of their lines."""
-        self._named_forces = False
-        """Whether the answer calls forces by letters of coordinates' names: Q_m."""
+        self._forces = NamedForces(model)
         self._moving: set[str] = set()
         self._seen: Counter[str] = Counter()
 
@@ -111,7 +110,7 @@ class Names:
                 self._seen[key(base)] += 1
                 if changing or dots:
                     self._moving.add(key(base))
-        self._named_forces = names_forces(self._seen, self.model)
+        self._forces = NamedForces(self.model, self._seen)
         for base in list(self._seen):
             self._moving.update(key(stem) for _, stem in spelled_rates(base) if key(stem) in self._seen)
         self.implied = implied_rates(self.model, self._seen, self._moving)
@@ -146,7 +145,7 @@ class Names:
             other = key(written)[:-1] + axis
             if self._seen[other] > 1 and not self.scope.meanings(axis)[0] and axis not in self.defined:
                 return None  # Q_y beside Q_x, both used, where x is no coordinate: a force's components
-        return force_of(written, self.model, named=self._named_forces)
+        return self._forces.of(written)
 
     def changes(self, written: str) -> bool:
         """Whether a name, of the system or of the answer, changes with time, so that it can have a rate."""

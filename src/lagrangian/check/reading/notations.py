@@ -31,6 +31,7 @@ from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
+from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -148,6 +149,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not LATEX.search(tagless.text):
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
+    tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(tagless, taken, None if latex else names.changes)
     said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
     said = with_called_dissipation(with_values_above(said), taken)

@@ -96,10 +96,32 @@ def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
     return begun[0] if len(begun) == 1 else None
 
 
-def names_forces(names: Iterable[str], model: Model) -> bool:
-    """Whether one of the names is a generalized force with letters as its index."""
-    found = ((_FORCE.match(spelled(x)), x) for x in names)
-    return any(m and m["index"] and not m["index"].isdigit() and force_of(x, model) is not None for m, x in found)
+class NamedForces:
+    """The generalized forces among the names of an answer.
+
+    With several coordinates, Q_th and Q_ph are those of theta and phi if there is one such name for each coordinate;
+    one alone may be what one element adds.
+    """
+
+    def __init__(self, model: Model, names: Iterable[str] = ()) -> None:
+        self.model = model
+        forces = [(m, x) for x in names if (m := _FORCE.match(spelled(x))) is not None and m["index"]]
+        self._named = any(not m["index"].isdigit() and force_of(x, model) is not None for m, x in forces)
+        begun = {key(x): self._begun(m["index"]) for m, x in forces if m["letter"] == "Q"}
+        of_each = sorted(x for x in begun.values() if x is not None)
+        whole = len(of_each) > 1 and of_each == sorted(c.name for c in model.coordinates)
+        self._short = begun if whole and len(begun) == len(of_each) else dict[str, str | None]()
+
+    def of(self, name: str) -> str | None:
+        """The coordinate whose generalized force a name is; None if it is not one."""
+        return force_of(name, self.model, named=self._named) or self._short.get(key(name))
+
+    def _begun(self, index: str) -> str | None:
+        """The coordinate that an index is, or with which only its name begins."""
+        short = key(index)
+        found = [c.name for c in self.model.coordinates if key(c.name) == short]
+        found = found or [c.name for c in self.model.coordinates if len(short) > 1 and key(c.name).startswith(short)]
+        return found[0] if len(found) == 1 else None
 
 
 def momentum_of(name: str, model: Model) -> str | None:

@@ -15,6 +15,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian.check.reading.carried_out.added_up import pieces
 from lagrangian.check.reading.carried_out.closed_loops import OpenInterpreter, inputs_named, names_in
 from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
@@ -291,7 +292,8 @@ def _statements(run: Interpreter, rates: MovingNames, energies: Set[str]) -> Ite
             elif not isinstance(value, sp.Expr) or not value.args:
                 continue
             elif one.name in energies and rates.order(value) == 1:
-                said = f"{one.name} = {written(value)}"
+                *parts, (_, said) = pieces(str(one.name), run.stated) or [(one.line, f"{one.name} = {written(value)}")]
+                yield from parts
             elif final and rates.order(value) == 2:
                 said = f"{written(value)} = 0"
             if said is not None and said not in told:

@@ -1,0 +1,36 @@
+"""The Lagrangian under a name of the answer's own, where L is a length: L_g = T − V, ∂L_g/∂θ."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.model import Model
+from lagrangian.read.letters import find
+
+_STATED = re.compile(
+    r"(?<![\w\\^{/∂])(?P<name>[Ll](?:\w{1,12}|_\{\w{1,12}\}))[ \t]*+&?[ \t]*+="
+    r"[ \t]*+&?[ \t]*+T\*?[ \t]*+[-−–][ \t]*+[VU]"
+    r"(?=[ \t]*+(?:[$.,;:\]&)]|\\[\\\])]|$))",
+    re.MULTILINE,
+)
+"""A name with an L in front that is T − V and nothing else."""
+_OTHER = re.compile(r"ℒ|\\(?:mathcal|mathscr|cal)\b|(?<![\w\\])(?:L|[Ll]agrangian)[ \t]*+&?=")
+"""The Lagrangian by its usual names."""
+_PROGRAM = re.compile(r"\b(?:diff|[Dd]erivative|jacobian|syms|symbols|import)\b")
+"""What programs have, which are carried out."""
+
+
+def with_own_lagrangian(written: TracedText, model: Model, taken: Callable[[str], bool], *, latex: bool) -> TracedText:
+    """Return an answer in which such a name is ℒ, if no other name is and the system has no such name."""
+    names = {m["name"] for m in _STATED.finditer(written.text)}
+    if len(names) != 1 or _OTHER.search(written.text) or _PROGRAM.search(written.text):
+        return written
+    (name,) = names
+    plain = name.replace("{", "").replace("}", "")
+    if taken(plain) or find(plain, model.symbols):
+        return written
+    letter = "\\mathcal{L}" if latex else "ℒ"
+    used = re.compile(rf"(?<![\w\\])(?P<by>[d∂]?){re.escape(name)}(?!\w)")
+    return written.sub(used, lambda m: f"{m['by']}{letter}")
