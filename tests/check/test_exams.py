@@ -63,14 +63,18 @@ def test_what_is_told_is_true_of_the_answer(system: str) -> None:
 
 @pytest.mark.slow
 def test_most_wrong_answers_are_told_at_the_line_in_which_the_mistake_was_made() -> None:
-    """Of those with one wrong line; nine of ten, as far as lines are judged one by one."""
-    counted, missed = 0, list[str]()
+    """Of those with one wrong line; six of seven, and of nearly all others it is said that this line was not judged."""
+    counted, missed, untrue = 0, list[str](), list[str]()
     for system in SYSTEMS:
         for answer, verdict in judged(system):
             if len(answer.get("lines", ())) != 1 or not isinstance(verdict, CheckedAnswer):
                 continue
             counted += 1
-            first = verdict.first_wrong
-            if first is None or first.line.number != answer["lines"][0]:
-                missed.append(f"{system} {answer['file']}: {first and first.line.number}, not {answer['lines'][0]}")
-    assert counted > 180 and len(missed) <= 0.1 * counted, (counted, missed)
+            first, (line,) = verdict.first_wrong, answer["lines"]
+            if first is None or first.line.number != line:
+                said = f"{system} {answer['file']}: {first and first.line.number}, not {line}"
+                missed.append(said)
+                apart = first is not None and first.clash
+                untrue += [] if apart or line in (*verdict.unjudged, *verdict.partly) else [said]
+    assert counted > 270 and len(missed) <= counted / 7, (counted, missed)
+    assert len(untrue) <= 0.05 * counted, untrue

@@ -25,7 +25,8 @@ def findings_of(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
 
 def is_of_numbers(line: AnsweredLine) -> bool:
     """Whether a line equates nothing but numbers: 120 + 25·1.8 = 165."""
-    return line.kind == "equation" and "=" in line.text and not line.names and _LETTER.search(line.text) is None
+    apart = len({side.strip() for side in line.text.split("=")}) > 1
+    return line.kind == "equation" and apart and not line.names and _LETTER.search(line.text) is None
 
 
 def _finding(truth: Reference, line: AnsweredLine, row: ReferenceRow) -> Finding:
@@ -71,7 +72,7 @@ def _note(truth: Reference, row: ReferenceRow, expr: sp.Expr) -> Text | None:
                 parts += ["the equation of ", q]
         return text("the sum of ", *parts)
     if row.kind is Kind.TURNED:
-        return text("the equations added with factors that depend on where the system is")
+        return text("the equations added, each times a factor")
     if row.kind is Kind.CONSEQUENCE and (said := note_on(truth, expr, right=True)) is not None:
         return said
     if row.kind is Kind.CONSEQUENCE:
