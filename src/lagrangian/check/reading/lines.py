@@ -21,6 +21,7 @@ from lagrangian.check.reading.line_forms import (
     entries_of,
     is_aside,
     is_general,
+    is_of_entries,
     is_rate_of,
     made_line,
     matrix_rows,
@@ -306,10 +307,9 @@ class Lines:
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
             self.names.define(token, value)  # M q'' + K q = Q means the forces that this answer gives
-            return [
-                self._stated(Subject("Xi", name=n), x, [side, side], side, reader)
-                for n, x in zip(names, value, strict=True)
-            ]
+            own = is_of_entries(token, self._statements[self.names.statement].sides[-1])
+            stated = [] if own else zip(names, value, strict=True)
+            return [self._stated(Subject("Xi", name=n), x, [side, side], side, reader) for n, x in stated]
         self.names.define(token, value)
         rates = {k for k, x in spelled_rates(token) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
@@ -325,7 +325,7 @@ class Lines:
         """Whether a statement uses a name beside other matrices, or as one side, M q'' = f, or states its rate."""
         listed = (s.sides for s in self._statements if self._has_matrices(s.sides))
         rated = any(is_rate_of(token, s.sides[0]) for s in self._statements)
-        return rated or any(key(str(x)) == key(str(token)) for y in listed for side in y for x, _ in names_in(side))
+        return rated or any(key(undotted(x)[0]) == key(token) for y in listed for side in y for x, _ in names_in(side))
 
     def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Compare the velocity or acceleration of a point with the derivative of its position, given before."""
