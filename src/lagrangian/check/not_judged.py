@@ -14,7 +14,7 @@ _FORMULA = re.compile(
 )
 """What no line of words has: a power, a product, a rate, a function, a sum."""
 _TOKEN = re.compile(r"[A-Za-z]{1,30}[0-9]{0,3}|[^\x00-\x7f]")
-_GOES_ON = re.compile(r"[ \t]*+(?:[-+−*·/=&)\]}]|\\(?:q?quad|end|left|right|cdot)\b|\\\\)")
+_GOES_ON = re.compile(r"[ \t]*+(?!\*\*|[-*•][ \t]+[^\W\d_][\w ]{2,40}:)(?:[-+−*·/=&)\]}]|\\(?:q?quad|end|left|right|cdot)\b|\\\\)")
 _ENDS_OPEN = re.compile(r"[-+−*·/=&(\[{,][ \t]*$|\\\\?[ \t]*$")
 MOST_LINES = 400
 """Of longer answers nothing is said."""
@@ -37,7 +37,10 @@ def unjudged_above(text: str, verdict: Verdict, model: Model) -> tuple[int, ...]
     found: list[int] = []
     for number, row in enumerate(rows[: first.line.number - 1], 1):
         goes_on = _GOES_ON.match(row) or (number > 1 and _ENDS_OPEN.search(rows[number - 2]))
-        if number in judged or goes_on or "".join(row.split()) in whole or _FORMULA.search(row) is None:
+        plain = row.replace("**", "")
+        heading = row.strip().startswith("**") and row.strip().endswith("**")
+        formula = not heading and _FORMULA.search(plain) is not None
+        if number in judged or goes_on or "".join(row.split()) in whole or not formula:
             continue
         tokens = {key(undotted(x)[0]) for m in _TOKEN.finditer(row) for x in (m[0], m[0][:1])}
         found += [number] if tokens & moving else []
