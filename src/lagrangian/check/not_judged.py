@@ -14,7 +14,9 @@ _FORMULA = re.compile(
 )
 """What no line of words has: a power, a product, a rate, a function, a sum."""
 _TOKEN = re.compile(r"[A-Za-z]{1,30}[0-9]{0,3}|[^\x00-\x7f]")
-_GOES_ON = re.compile(r"[ \t]*+(?!\*\*|[-*•][ \t]+[^\W\d_][\w ]{2,40}:)(?:[-+−*·/=&)\]}]|\\(?:q?quad|end|left|right|cdot)\b|\\\\)")
+_GOES_ON = re.compile(
+    r"[ \t]*+(?!\*\*|[-*•][ \t]+[^\W\d_][\w ]{2,40}:)(?:[-+−*·/=&)\]}]|\\(?:q?quad|end|left|right|cdot)\b|\\\\)"
+)
 _ENDS_OPEN = re.compile(r"[-+−*·/=&(\[{,][ \t]*$|\\\\?[ \t]*$")
 MOST_LINES = 400
 """Of longer answers nothing is said."""

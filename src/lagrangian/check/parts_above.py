@@ -174,7 +174,9 @@ def _as_parts(piece: Piece, coordinate: Coordinate | None) -> Iterator[tuple[sp.
     varied = displacements(piece.expr)
     if varied:
         if coordinate is not None:
-            yield from ((bounded.diff(piece.expr, x), sp.S.One, True) for x, name in varied.items() if name == coordinate.name)
+            yield from (
+                (bounded.diff(piece.expr, x), sp.S.One, True) for x, name in varied.items() if name == coordinate.name
+            )
         return
     if coordinate is not None and piece.expr.has(coordinate.rate):
         whole = bounded.expand(piece.expr)
@@ -253,7 +255,9 @@ def _acts_once(truth: Reference, letter: object) -> bool:
     """Whether a letter stands in what one element adds to Ξ, and in nothing else."""
     if any(x.has(letter) for x in (truth.T, truth.V)):
         return False
-    given = {e for terms in truth.derivation.terms for t in terms if truth.expand(t.expr).has(letter) for e in t.elements}
+    given = {
+        e for terms in truth.derivation.terms for t in terms if truth.expand(t.expr).has(letter) for e in t.elements
+    }
     return len(given) == 1
 
 

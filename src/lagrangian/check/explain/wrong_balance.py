@@ -19,6 +19,7 @@ from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.explain.balance_terms import Laws, Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
+from lagrangian.check.explain.pieces_shared import wrong_share
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
 from lagrangian.check.explain.solved_forces import (
     Balances,
@@ -237,6 +238,10 @@ def _one_blamed(
         if term is None and (best := plainest({0: mends(truth, line.expr, values, balances.forces)})) is not None:
             term = best[1]
         return WrongBalance(k, line, term, tuple(false))
+    share = wrong_share(truth, balances) if len(apart) > 1 else None
+    if share is not None and (u := balances.forces_without(share[0])) is not None:
+        false = tuple(x for x in later if not is_true(truth, x, truth.accelerations | u))
+        return WrongBalance(share[0], balances.lines[share[0]], share[1], false, few=True)
     listed: dict[int, list[Mend]] = {}
     given: dict[int, dict[sp.Basic, Array]] = {}
     for i in apart:
