@@ -45,6 +45,7 @@ from lagrangian.check.reading.placeholders import (
     is_placeholder,
     is_slope,
     is_vector,
+    multiple_of_energy,
     slope_of_L,
 )
 from lagrangian.check.reading.redefined import contradicting
@@ -138,8 +139,7 @@ class Lines:
 
     def _forget(self, lines: Sequence[AnswerLine]) -> None:
         """Drop the unknown names of sides that are not judged."""
-        exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
-        used = {x for expr in exprs for x in bounded.letters(expr)}
+        used = {x for line in lines for e in (line.lhs, line.rhs) if e is not None for x in bounded.letters(e)}
         for base in [base for base, u in self.names.unknown.items() if u.symbol not in used]:
             del self.names.unknown[base]
 
@@ -375,8 +375,8 @@ class Lines:
         if (derived := self.subjects.derived((a, left), (b, right))) is not None:
             return made_line(*derived, a, b, reader)
         for side, value in ((left, right), (right, left)):
-            if not is_general(value) and (own := [x for x, energy in ENERGIES.items() if energy == side]):
-                return made_line(cast("Kind", own[0]), None, value, None, a, b, reader)  # (T, V) = (m x'^2/2, k x^2/2)
+            if not is_general(value) and (own := multiple_of_energy(side)) is not None:  # 2 T = m x'^2, (T, V) = (…, …)
+                return made_line(cast("Kind", own[0]), None, value / own[1], None, a, b, reader)
         if is_general(left) or is_general(right):
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
