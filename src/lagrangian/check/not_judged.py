@@ -18,6 +18,8 @@ _GOES_ON = re.compile(
     r"[ \t]*+(?!\*\*|[-*•][ \t]+[^\W\d_][\w ]{2,40}:)(?:[-+−*·/=&)\]}]|\\(?:q?quad|end|left|right|cdot)\b|\\\\)"
 )
 _ENDS_OPEN = re.compile(r"[-+−*·/=&(\[{,][ \t]*$|\\\\?[ \t]*$")
+_ROUND = str.maketrans({"[": "(", "]": ")", "δ": "d"})
+"""Lists in round brackets are told in square ones, and dx of virtual work as δx."""
 MOST_LINES = 400
 """Of longer answers nothing is said."""
 
@@ -34,7 +36,7 @@ def unjudged_above(text: str, verdict: Verdict, model: Model) -> tuple[int, ...]
     ):
         return ()
     judged = {f.line.number for f in verdict.findings}
-    whole = "".join("".join(f.line.text.split()) for f in verdict.findings)
+    whole = "".join("".join(f.line.text.split()) for f in verdict.findings).translate(_ROUND)
     moving = {key(c.name) for c in model.coordinates}
     found: list[int] = []
     for number, row in enumerate(rows[: first.line.number - 1], 1):
@@ -42,7 +44,7 @@ def unjudged_above(text: str, verdict: Verdict, model: Model) -> tuple[int, ...]
         plain = row.replace("**", "")
         heading = row.strip().startswith("**") and row.strip().endswith("**")
         formula = not heading and _FORMULA.search(plain) is not None
-        if number in judged or goes_on or "".join(row.split()) in whole or not formula:
+        if number in judged or goes_on or "".join(row.split()).translate(_ROUND) in whole or not formula:
             continue
         tokens = {key(undotted(x)[0]) for m in _TOKEN.finditer(row) for x in (m[0], m[0][:1])}
         found += [number] if tokens & moving else []
@@ -51,5 +53,5 @@ def unjudged_above(text: str, verdict: Verdict, model: Model) -> tuple[int, ...]
 
 def _is_at(number: int, written: str, rows: list[str]) -> bool:
     """Whether a statement begins in the line of which it has the number."""
-    begins = "".join(written.split("\n")[0].split())[:8]
-    return 0 < number <= len(rows) and begins in "".join(rows[number - 1].split())
+    begins = "".join(written.split("\n")[0].split())[:8].translate(_ROUND)
+    return 0 < number <= len(rows) and begins in "".join(rows[number - 1].split()).translate(_ROUND)

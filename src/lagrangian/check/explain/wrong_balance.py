@@ -238,10 +238,6 @@ def _one_blamed(
         if term is None and (best := plainest({0: mends(truth, line.expr, values, balances.forces)})) is not None:
             term = best[1]
         return WrongBalance(k, line, term, tuple(false))
-    share = wrong_share(truth, balances) if len(apart) > 1 else None
-    if share is not None and (u := balances.forces_without(share[0])) is not None:
-        false = tuple(x for x in later if not is_true(truth, x, truth.accelerations | u))
-        return WrongBalance(share[0], balances.lines[share[0]], share[1], false, few=True)
     listed: dict[int, list[Mend]] = {}
     given: dict[int, dict[sp.Basic, Array]] = {}
     for i in apart:
@@ -254,6 +250,10 @@ def _one_blamed(
                 found = [replace(m, cost=m.cost - MOMENT) for m in found]
             listed[i] = found
     if (best := plainest(listed)) is None:
+        share = wrong_share(truth, balances) if len(apart) > 1 else None
+        if share is not None and (u := balances.forces_without(share[0])) is not None:
+            false = tuple(x for x in later if not is_true(truth, x, truth.accelerations | u))
+            return WrongBalance(share[0], balances.lines[share[0]], share[1], false, few=True)
         i = next((i for i in told if not parts[i].tentative), None)
         return None if i is None else WrongBalance(i, balances.lines[i], parts[i].term, few=True, known=parts[i])
     i, term = best

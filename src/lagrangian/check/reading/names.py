@@ -19,7 +19,7 @@ from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.nodes import names_in, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
-from lagrangian.check.reading.own_values import OwnValues
+from lagrangian.check.reading.own_values import OwnValues, component_of
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
@@ -227,6 +227,8 @@ class Names:
                 return *found, order + dots
         if (near := self._near_rate(base, token, source)) is not None:
             return near[0], self.scope[near[0]], near[1] + dots
+        if (entry := component_of(base, self._matrix)) is not None:
+            return base, entry, dots
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
 
     def _matrix(self, base: str) -> Value | None:
@@ -380,9 +382,7 @@ class Names:
                 raise source.error(what, start_of(token), fix="use the names of the system", code="E703")
             spelling = spelled(base)
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
-            hint = None
-            if len(self.unknown) < MAX_HINTS:
-                hint = self._hint(base)
+            hint = self._hint(base) if len(self.unknown) < MAX_HINTS else None
             self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
         return base
 
