@@ -39,7 +39,7 @@ _SIGNED = re.compile(r"[+−–-]")
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class FormulaAbove:
     """A formula in a line without a verdict: the number of the line, its text, and what it is."""
 
     number: int
@@ -62,7 +62,7 @@ def with_parts_above(truth: Reference, written: str, verdict: Verdict) -> Verdic
     judged = {f.line.number for f in verdict.findings}
     above = [k for k in range(1, min(open_ones[-1].line.number, len(rows) + 1)) if k not in judged]
     pieces = _read(truth, written, [(k, x) for k in above for x in _formulas(truth, rows[k - 1])])
-    findings, made = list(verdict.findings), list[Piece]()
+    findings, made = list(verdict.findings), list[FormulaAbove]()
     for first in open_ones:
         before = [p for p in pieces if p.number < first.line.number and p not in made]
         found = [(p, own) for p in before if (own := _made_in(truth, p, before, first))]
@@ -110,7 +110,7 @@ def _formulas(truth: Reference, row: str) -> Iterator[str]:
             yield short
 
 
-def _read(truth: Reference, written: str, found: Sequence[tuple[int, str]]) -> list[Piece]:
+def _read(truth: Reference, written: str, found: Sequence[tuple[int, str]]) -> list[FormulaAbove]:
     """The pieces with what they are, with the names of the answer; none of them where the text cannot be read so."""
     if not found or len(found) > MOST_PIECES or _NAME in written:
         return []
@@ -128,11 +128,12 @@ def _read(truth: Reference, written: str, found: Sequence[tuple[int, str]]) -> l
             continue
         expr = line.residual
         value = own & bounded.letters(expr)
-        values[int(at)] = cast("sp.Expr", -expr.xreplace(dict.fromkeys(value, sp.S.Zero))) if value else expr
-    listed: dict[tuple[int, sp.Expr], Piece] = {}
+        turned = -cast("sp.Expr", expr.xreplace(dict.fromkeys(value, sp.S.Zero)))
+        values[int(at)] = turned if value else expr
+    listed: dict[tuple[int, sp.Expr], FormulaAbove] = {}
     for k, x in values.items():
         if k < len(found) and isinstance(x, sp.Expr):
-            piece = Piece(*found[k], truth.expand(x))
+            piece = FormulaAbove(*found[k], truth.expand(x))
             listed[piece.number, piece.expr] = piece  # a name, and then its value
     return [*listed.values()]
 
@@ -141,7 +142,7 @@ def _read(truth: Reference, written: str, found: Sequence[tuple[int, str]]) -> l
 
 
 def _made_in(
-    truth: Reference, piece: Piece, pieces: Sequence[Piece], first: Finding
+    truth: Reference, piece: FormulaAbove, pieces: Sequence[FormulaAbove], first: Finding
 ) -> list[tuple[TermDifference, TermDifference]]:
     """The differences of a wrong line that stand in a piece already, and the same as they are in it."""
     coordinate = next((c for c in truth.model.coordinates if c.name == first.coordinate), None)
@@ -168,7 +169,7 @@ def _made_in(
     return found
 
 
-def _as_parts(piece: Piece, coordinate: Coordinate | None) -> Iterator[tuple[sp.Expr, sp.Expr, bool]]:
+def _as_parts(piece: FormulaAbove, coordinate: Coordinate | None) -> Iterator[tuple[sp.Expr, sp.Expr, bool]]:
     """What a piece adds to a line of a coordinate, and times what this stands there: as work for its δξ, as power,
     which are surely meant so, or as it stands."""
     varied = displacements(piece.expr)
@@ -239,9 +240,9 @@ def _of_speed(truth: Reference, d: TermDifference, speed: sp.Expr) -> TermDiffer
 def _is_whole(truth: Reference, d: TermDifference, own: set[sp.Expr], side: set[sp.Expr]) -> bool:
     """Whether a part is all that a line has with the letter of one force, of which a term is missing there."""
     for letter in bounded.letters(truth.expand(d.term)):
-        if all(x.has(letter) for x in own) and {x for x in side if x.has(letter)} == own:
-            if _acts_once(truth, letter):
-                return True
+        whole = all(x.has(letter) for x in own) and {x for x in side if x.has(letter)} == own
+        if whole and _acts_once(truth, letter):
+            return True
     return False
 
 
@@ -261,7 +262,9 @@ def _acts_once(truth: Reference, letter: object) -> bool:
     return len(given) == 1
 
 
-def _beside(truth: Reference, piece: Piece, pieces: Sequence[Piece], side: set[sp.Expr]) -> list[Piece]:
+def _beside(
+    truth: Reference, piece: FormulaAbove, pieces: Sequence[FormulaAbove], side: set[sp.Expr]
+) -> list[FormulaAbove]:
     """The pieces of the lines around one, each of which is a term of the same side, without a gap between them."""
     held = [p for p in pieces if (own := _terms(p.expr)) and len(own) == 1 and own <= side]
     numbers = {p.number for p in held}

@@ -10,6 +10,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.explain import solved
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -72,7 +73,7 @@ def _told(truth: Reference, line: AnsweredLine, rows: Sequence[Finding], verdict
     what = _words(line, wrong)
     findings = [replace(f, follows=True) if f in rows else f for f in verdict.findings]
     differing = () if wrong is None else (TermDifference("sign", -wrong, wrong, None),)
-    mistake = Mistake(NAME, what, WHY, 5, brief=text(f"{line.opening} is not right."))
+    mistake = Mistake(NAME, what, WHY if truth.n == 2 else solved.WHY, 5, brief=text(f"{line.opening} is not right."))
     told = inserted(findings, Finding(line, Status.WRONG, None, None, differing))
     return replace(verdict, findings=tuple(told), mistakes=(mistake,), alternatives=())
 

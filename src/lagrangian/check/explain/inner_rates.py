@@ -65,9 +65,9 @@ def follow_from_inner_rates(truth: Reference, findings: Sequence[Finding]) -> li
             slope = bounded.diff(cast("sp.Expr", momentum.xreplace({f: place})), place).xreplace({place: f})
             extra = cast("sp.Expr", slope) * (written - rate)
             rest = truth.expand(line.expr - right)
-            if w.line.number <= line.number and extra != 0:
-                if any(zero_everywhere(truth, rest - s * extra) for s in (1, -1)):
-                    return True
+            above = w.line.number <= line.number and extra != 0
+            if above and any(zero_everywhere(truth, rest - s * extra) for s in (1, -1)):
+                return True
         return False
 
     told = {id(w) for w, _ in wrong}

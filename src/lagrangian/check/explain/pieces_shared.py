@@ -1,6 +1,6 @@
 """Finds the one wrong line among balances by what each takes of the equation of a coordinate: which bodies and forces.
 
-Axle: J φ″ = S r − c φ̇;   board: M L²/12 (r/a) φ″ = F p − S a      the equation of φ is the first plus r/a times the second
+Axle: J φ″ = S r − c φ̇;   board: M L²/3 (r/a) φ″ = F p − S a      the equation of φ is the first plus r/a of the second
 
 Each line times its own factor is the share of some bodies and forces in the equation, and the forces that hold these
 cancel in the sum of all. A line that is no such share, while the others are, is wrong; and where all are, and one force
@@ -100,8 +100,8 @@ def _is_inverted(arm: sp.Expr, ratio: sp.Expr) -> bool:
 
 
 def _pieces(truth: Reference, i: int) -> tuple[list[sp.Expr], list[sp.Expr]]:
-    """What bodies, and what weights, springs and forces add to the left-hand side of the equation of ξ_i; those that add
-    the same together."""
+    """What bodies, and what weights, springs and forces add to the left-hand side of the equation of ξ_i; those that
+    add the same together."""
     s, c = ingredients_of(truth.derivation), truth.model.coordinates[i]
     energies = [T for e in truth.model.elements if (T := s.kinetic(e)) != 0]
     stored = [V for _, _, V in (*s.weights(), *s.springs())]
