@@ -7,7 +7,7 @@ Oracle: by hand, a pendulum on a cart; see `small_systems`.
 from __future__ import annotations
 
 import pytest
-from small_systems import cart
+from small_systems import cart, mass
 
 ROWS = (
     "(M + m) x'' + m l cos(theta) theta'' - m l sin(theta) theta'^2 + k x = F - b x'\n"
@@ -75,3 +75,17 @@ def test_components_of_a_point_by_their_index() -> None:
     )
     number, said = told(answer + ROWS)
     assert number is None and "T*" in said and "was not judged" not in said
+
+
+def test_a_force_of_a_program() -> None:
+    program = (
+        "function dz = cart(t, z, F)\n"
+        "M = 2; m = 1; k = 3; b = 4;\n"
+        "x = z(1); v = z(2);\n"
+        "f = F - k*x + b*v;\n"
+        "dz = [v; f/m];\n"
+        "end\n"
+    )
+    assert mass().check(program.replace("+ b*v", "- b*v")).right
+    verdict = mass().check(program.replace("k*x + b", "2*k*x - b"))
+    assert verdict.first_wrong is not None and verdict.first_wrong.line.number == 4, verdict

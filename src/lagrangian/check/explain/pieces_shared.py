@@ -29,8 +29,8 @@ MOST_PIECES, MOST_TERMS = 5, 60
 """The most bodies of which all groups are compared with a line, and the most terms of a line."""
 
 
-def wrong_share(truth: Reference, balances: Balances) -> tuple[int, WrongTerm | None] | None:
-    """The place of the balance that is wrong, and its term that is, if it is one; None if that is not clear."""
+def wrong_share(truth: Reference, balances: Balances) -> tuple[int, WrongTerm] | None:
+    """The place of the balance that is wrong, and the one term of it that is; None if that is not clear."""
     moving = [
         i for i, c in enumerate(truth.model.coordinates) if any(x.expr.has(c.acceleration) for x in balances.lines)
     ]
@@ -42,7 +42,7 @@ def wrong_share(truth: Reference, balances: Balances) -> tuple[int, WrongTerm | 
         return None
 
 
-def _wrong(truth: Reference, balances: Balances, i: int) -> tuple[int, WrongTerm | None] | None:
+def _wrong(truth: Reference, balances: Balances, i: int) -> tuple[int, WrongTerm] | None:
     bodies, forces = _pieces(truth, i)
     if not 0 < len(bodies) <= MOST_PIECES:
         return None
@@ -65,7 +65,8 @@ def _wrong(truth: Reference, balances: Balances, i: int) -> tuple[int, WrongTerm
         taken = [
             c * _known(truth, x, balances.forces) for c, x in zip(scales, balances.lines, strict=True) if c is not None
         ]
-        return k, _term(truth, balances, k, needed.pop(), sp.Add(*bodies, *forces, *(-x for x in taken)))
+        term = _term(truth, balances, k, needed.pop(), sp.Add(*bodies, *forces, *(-x for x in taken)))
+        return None if term is None else (k, term)
     left = [j for j, x in enumerate(sums) if bounded.cancel(x) != 0]
     if len(left) != 1:
         return None
@@ -87,7 +88,7 @@ def _term(truth: Reference, balances: Balances, k: int, scale: sp.Expr, rest: sp
         return None
     for term in sp.Add.make_args(known):
         part = bounded.cancel(more / (scale * term))
-        if part.is_number:
+        if part.is_number and 1 - part > 0:
             return WrongTerm(term, 1 - part)
     return None
 
