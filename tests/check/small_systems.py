@@ -49,6 +49,22 @@ def rack() -> lg.Derivation:
 
 
 @cache
+def winch() -> lg.Derivation:
+    """A drum with a gear to a weight: a motor's torque and a brake act on its shaft, which turns n times as fast."""
+    s = lg.System("winch with a gear")
+    phi = s.coordinate("phi")
+    m, J, I, r, a, n, c, g = s.parameters("m J I r a n c g")
+    s.particle(m, at=s.point("W", (0, -r * phi)), name="weight")
+    s.kinetic(J * phi.diff() ** 2 / 2, name="drum")
+    s.kinetic(I * (n * phi.diff()) ** 2 / 2, name="shaft")
+    s.gravity(direction=(0, -1), g=g)
+    s.damper(c, deflection=phi, name="bearing")
+    s.generalized_force(phi, -n * s.input("B"), name="brake")
+    s.force(s.input("F"), deflection=a / r * phi, name="foot")
+    return s.derive()
+
+
+@cache
 def cart() -> lg.Derivation:
     """A cart on a spring with a pendulum."""
     s = lg.System("cart with a pendulum")
@@ -98,4 +114,20 @@ def seesaw() -> lg.Derivation:
     s.particle(M, at=s.point("C", (-d * sp.sin(phi), d * sp.cos(phi))), name="counterweight")
     s.gravity((0, -1), g)
     s.spring(k, deflection=phi, name="torsion bar")
+    return s.derive()
+
+
+@cache
+def pushed_cart() -> lg.Derivation:
+    """A pendulum on a cart on a spring, which a force pushes at the cart and another at the bob."""
+    s = lg.System("pendulum on a cart")
+    x, theta = s.coordinates("x theta")
+    M, m, l, k, b, g = s.parameters("M m l k b g")
+    bob = s.point("S", (x + l * sp.sin(theta), -l * sp.cos(theta)))
+    s.particle(M, at=s.point("C", (x, 0)), name="cart")
+    s.particle(m, at=bob, name="bob")
+    s.gravity(direction=(0, -1), g=g)
+    s.spring(k, deflection=x, name="spring")
+    s.damper(b, deflection=x, name="damper")
+    s.force((s.input("F"), 0), at=bob, name="wind")
     return s.derive()

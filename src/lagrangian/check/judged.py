@@ -23,6 +23,7 @@ from lagrangian.check.explain.after_own_rates import follow_from_own_rates
 from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
+from lagrangian.check.explain.inner_rates import follow_from_inner_rates
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.rates_of_energies import follow_from_rates
 from lagrangian.check.explain.row_words import findings_of, name_of
@@ -98,8 +99,8 @@ def judged_lines(
         findings = follow_from_definitions(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
-        findings = follow_from_rates(truth, follow_from_given_rates(truth, findings))
-        findings = follow_from_values(truth, follow_from_own_rates(truth, findings))
+        findings = follow_from_inner_rates(truth, follow_from_given_rates(truth, findings))
+        findings = follow_from_values(truth, follow_from_own_rates(truth, follow_from_rates(truth, findings)))
         findings = with_consequences(truth, findings)
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)

@@ -40,6 +40,8 @@ _ARTICLES = ("a", "I", "A")
 """Letters that are words as well."""
 LONGEST_PRODUCT = 5
 """The most letters of what may be several names, mgl."""
+_ROUND = str.maketrans({"[": "(", "]": ")", "δ": "d"})
+"""Lists in round brackets are told in square ones, and dx of virtual work as δx."""
 MOST_LINES = 400
 """Of longer answers nothing is said."""
 
@@ -179,7 +181,7 @@ def _words(text: str) -> list[str]:
 
 
 def _squeezed(row: str) -> str:
-    return "".join(row.split())
+    return "".join(row.split()).translate(_ROUND)
 
 
 def _is_at(number: int, written: str, rows: list[str]) -> bool:

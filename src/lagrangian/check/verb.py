@@ -32,6 +32,7 @@ from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_m
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.not_judged import unjudged_above
+from lagrangian.check.parts_above import with_parts_above
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.readings_compared import (
     ENTRY,
@@ -102,6 +103,8 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     else:
         verdict = check.check(derivation, given, hint=hint)
     if written and isinstance(given, Answer) and not given.program:
+        if given.notation == "text" and verdict.status is check.Status.WRONG and hint:
+            verdict = with_parts_above(truth_of(derivation), written, verdict)
         above = unjudged_above(written, verdict, derivation.model, given)
         verdict = replace(verdict, unjudged=above.lines, partly=above.partly)
     return CheckedAnswer(**vars(verdict), model=derivation.model)

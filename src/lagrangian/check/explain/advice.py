@@ -24,12 +24,14 @@ from lagrangian.check.explain.misconceptions import (
 )
 from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.check.explain.own_terms import WHY_FORCE
-from lagrangian.check.explain.say import ANGLES, LETTERS, WAY, WHY_PART
+from lagrangian.check.explain.ratios import WHY as WHY_RATIO
+from lagrangian.check.explain.say import ANGLES, LETTERS, UNITS, WAY, WHY_PART
 from lagrangian.check.explain.without_energies import WHY_EQUATION, silent_energies
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake, Verdict
 from lagrangian.model import Damper, Spring
 from lagrangian.page.formula import Text, text
+from lagrangian.values.dimensions import NONE
 
 GENERAL = (WHY_PART[5], str(WHY_EQUATION))
 """What is advised where nothing is known of a term but that it is wrong."""
@@ -42,6 +44,7 @@ OF_TWO_RATES = text(
     "Such a term comes from d/dt of a product, as of s² θ̇: the derivative of the square is 2 s ṡ. In a balance of "
     "forces or moments it is the Coriolis acceleration, with the same factor 2."
 )
+OF_A_SQUARE = text("The derivative of a square is twice what is squared: of c ξ̇² it is 2 c ξ̇.")
 OF_TWICE = text(
     "Is a factor 2 counted twice? A square brings it once when it is differentiated, and the sine of a double angle "
     "contains it: 2 sin a cos a = sin 2a."
@@ -177,7 +180,8 @@ def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collecti
         return OPPOSITE
     if why in GENERAL:
         return _of_term(truth, mistake, balances)
-    if (special := _of_efforts(truth, mistake, why, right)) is not None:
+    special = _of_ratio(truth, mistake) or _of_efforts(truth, mistake, why, right)
+    if special is not None:
         return special
     if balances and mistake.name == "element_forgotten" and mistake.step == 2:
         return OF_BODIES
@@ -186,6 +190,19 @@ def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collecti
     if balances and why in OF_STEPS:
         return OF_STEPS[why]
     return mistake.why
+
+
+def _of_ratio(truth: Reference, mistake: Mistake) -> Text | None:
+    """What is advised where units say nothing: of a ratio, or of a pure number; None for anything else."""
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
+    if str(mistake.why) != UNITS or not formulas:
+        return None
+    letters = bounded.letters(formulas[-1])
+    dims = ingredients_of(truth.derivation).dimensions
+    if not letters or not all(isinstance(x, sp.Symbol) for x in letters) or dims is None:
+        return None
+    dim = dims.of(formulas[-1])
+    return WHY_RATIO if dim is not None and not dim.unknown and dim == NONE else None
 
 
 def _of_efforts(truth: Reference, mistake: Mistake, why: str, right: Collection[str | None]) -> Text | None:
@@ -217,7 +234,9 @@ def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:
     accelerated = any(d.derivative_count > 1 for d in moving)
     if any(x in mistake.name for x in NUMBERS):
         more = any(x in str(mistake.what) for x in (" too much", " twice"))
-        return OF_INERTIA if accelerated else TERM_BY_TERM if not moving else OF_TWICE if more else OF_TWO_RATES
+        if accelerated or not moving or more:
+            return OF_INERTIA if accelerated else OF_TWICE if moving else TERM_BY_TERM
+        return OF_TWO_RATES if _degree(formulas[0]) > 1 else OF_A_SQUARE
     if any(x in mistake.name for x in MISSING):
         if not moving:
             return OF_PLACES
@@ -225,6 +244,12 @@ def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:
     if len(formulas) > 1 and _turns(formulas[0], formulas[1]):
         return text(ANGLES)
     return TERM_BY_TERM
+
+
+def _degree(term: sp.Expr) -> int:
+    """How many rates a term has as factors."""
+    powers = (f.as_base_exp() for f in sp.Mul.make_args(term))
+    return sum(int(n) if n.is_Integer else 1 for x, n in powers if x.atoms(sp.Derivative))
 
 
 def _is_between(truth: Reference, mistake: Mistake) -> bool:

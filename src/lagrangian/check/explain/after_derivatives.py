@@ -26,12 +26,14 @@ SMALL = 1e-9
 
 
 def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
-    """The findings, with the equations marked that have exactly what a wrong derivative above them has too much."""
+    """The findings, with the equations marked that have exactly what a wrong derivative above them has too much, and
+    the d/dt ∂L/∂ξ̇ that are the derivative of a wrong ∂L/∂ξ̇ above them."""
+    findings = _of_momenta(truth, findings)
     derived = [f for f in findings if f.line.kind in ("p", *DERIVED) and _is_open(f)]
     rows = [f for f in findings if f.line.kind == "equation" and _is_open(f)]
     both = list(_of_both(truth, findings)) if rows else []
     if not (derived or both) or not rows:
-        return list(findings)
+        return findings
     extra = [x for f in derived for x in _extra(truth, f)]
     values = CompiledExpressions([f.line.expr for f in rows]).at(truth.states)
     follow: set[int] = set()
@@ -42,6 +44,19 @@ def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> li
         if np.isfinite(P).all() and any(_has(truth, f, P, i, r) for i, r in above):
             follow.add(id(f))
     return [replace(f, follows=True) if id(f) in follow else f for f in findings]
+
+
+def _of_momenta(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with the derivatives by time marked that follow from what is stated wrongly above them."""
+    momenta = [f.line for f in findings if f.line.kind == "p" and f.status is Status.WRONG]
+
+    def follows(f: Finding) -> bool:
+        above = (x for x in momenta if x.name == f.line.name and x.number <= f.line.number)
+        return any(zero_everywhere(truth, f.line.expr - bounded.diff(x.expr, time)) for x in above)
+
+    open_ones = (f for f in findings if f.line.kind == "p-rate" and _is_open(f))
+    following = {id(f) for f in open_ones if follows(f)}
+    return [replace(f, follows=True) if id(f) in following else f for f in findings]
 
 
 def _of_both(truth: Reference, findings: Sequence[Finding]) -> Iterator[tuple[int, Array]]:

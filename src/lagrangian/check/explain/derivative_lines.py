@@ -244,7 +244,8 @@ def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mist
     first, *more = what.parts
     title = finding.line.title
     said = text(f"In {title}, {str(first)[:1].lower()}{str(first)[1:]}", *more)
-    return [Mistake(name, said, WHY, 4, None, finding.coordinate, text(f"A term of {title} is not right."))]
+    step = 5 if any(f.line.kind in ("T", "L") and f.status.right for f in findings) else 4
+    return [Mistake(name, said, WHY, step, None, finding.coordinate, text(f"A term of {title} is not right."))]
 
 
 def replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:

@@ -14,6 +14,7 @@ from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.after_own_rates import slip_in_own_rate
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
+from lagrangian.check.explain.inner_rates import slip_in_inner_rate
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.rates_of_energies import slip_in_rate
 from lagrangian.check.explain.search import (
@@ -63,6 +64,7 @@ def of_line(
         return against.unopposed(_of_momentum(pool, line, i)), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         slip = slip_in_rate(truth, line, lines) or slip_in_own_rate(truth, line) or slip_in_values(truth, line)
+        slip = slip or slip_in_inner_rate(truth, line)
         return [], [slip] if slip is not None else []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
     if right is None:

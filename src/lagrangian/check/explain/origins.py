@@ -37,6 +37,7 @@ MOST_TERMS = 300
 LONGEST = 1_500
 """The most operations of an equation with marks."""
 _COMMENT = re.compile(r"[%#].*+")
+_DIGITS = "0123456789₀₁₂₃₄₅₆₇₈₉_"
 _WORD = re.compile(r"[^\W\d]\w*+")
 
 
@@ -61,7 +62,8 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
     equations = [f for f in verdict.findings if f.line.kind == "equation"]
     marked = {id(f): _with_marks(truth, marks, f.line, rows) for f in equations}
     parts = {id(f): [] if x is None else _parts(marks, x) for f in equations if (x := marked[id(f)]) is not None}
-    judged = {f.line.number for f in verdict.findings if f.line.kind != "equation"}
+    said = {f.line.number for f in verdict.findings if f.line.kind == "definition" and f.status.right}
+    judged = {f.line.number for f in verdict.findings if f.line.kind != "equation"} - said
     found: list[Made] = []
     differing: dict[int, Sequence[TermDifference]] = {}
     for f in verdict.findings:
@@ -78,9 +80,12 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
             made = [Made(f, d, under, *x, alone) for d in differing[id(f)] for x in _made_in(held, d, alone)]
         found += made
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
-    found = [x for x in found if _fits(x, found, uses)]
+    found = [x for x in found if _fits(x, found, uses) and (x.of.line not in said or _is_entry(x, uses))]
     if not found:
         return verdict
+    lines_made = {x.of.line for x in found} & said  # m g l sin θ is right for a force, and not for this entry
+    kept = (f for f in verdict.findings if f.line.kind != "definition" or f.line.number not in lines_made)
+    verdict = replace(verdict, findings=tuple(kept))
     names = own_names(truth, lines, [x.finding.line for x in found])
     found = [replace(x, own=_named(x.own, names)) for x in found]
     return with_made(truth, verdict, found, differing)
@@ -102,12 +107,28 @@ def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, PartO
         return True
     turned = {y for x in found if x.finding is made.finding for y in sp.Add.make_args(bounded.expand(x.term.written))}
     here = [p for f, p in own if f is made.finding]
-    if any(not p.terms <= turned for p in here):
+    if any(not p.terms <= turned for p in here) or _is_entry(made, uses):
         return True
     factor = next((p.factor for p in here if p.of is made.of), sp.S.Zero)
     if made.alone and factor == -1:
         return True
     return made.term.kind == "coefficient" and len(here) == 1 and _is_moving(factor)
+
+
+def _is_entry(made: Made, uses: Sequence[tuple[Finding, PartOfValue]]) -> bool:
+    """Whether a value is one of several with a name and a number, c₁ and c₂, of which another is right in an equation
+    of the same line with the same factor: the sign of the equation is that of all."""
+    stem, line = made.of.name.rstrip(_DIGITS), made.finding.line
+    here = [p for f, p in uses if f is made.finding and p.of is made.of]
+    others = [
+        p
+        for f, p in uses
+        if f.status.right
+        and (f.line.number, f.line.text) == (line.number, line.text)
+        and p.of.name != made.of.name
+        and p.of.name.rstrip(_DIGITS) == stem
+    ]
+    return made.alone and any(p.factor == q.factor for p in here for q in others)
 
 
 def _is_moving(factor: sp.Expr) -> bool:
@@ -118,7 +139,7 @@ def _is_moving(factor: sp.Expr) -> bool:
 def _names_only(truth: Reference, marks: ValueMarks, number: int) -> bool:
     """Whether a line of a program has nothing of the system but names to which values were given before."""
     said = _COMMENT.sub("", marks.lines[number - 1]) if 0 < number <= len(marks.lines) else ""
-    own = {key(x.name) for x in marks.values}
+    own = {key(y) for x in marks.values for y in (x.name, x.name.rstrip(_DIGITS)) if y}  # M of M₁₁
     given = {key(x.name) for x in (*truth.model.parameters, *truth.model.inputs)} - own
     words = {key(x) for x in _WORD.findall(said)}
     return bool(words & own) and not words & given
@@ -190,7 +211,7 @@ def _made_in(parts: Sequence[PartOfValue], d: TermDifference, alone: bool) -> li
     found: list[tuple[MarkedValue, TermDifference]] = []
     for term in sp.Add.make_args(bounded.expand(d.term)) if alone else ():
         lacking = replace(d, term=term)
-        own = [(p, x) for p in parts if (x := _in_value(p, lacking)) is not None]
+        own = [(p, x) for p in parts if not _is_still(p, term) and (x := _in_value(p, lacking)) is not None]
         fewest = min((_moving(x.term) for _, x in own), default=0)
         own = [(p, x) for p, x in own if _moving(x.term) == fewest]
         if not own:
@@ -198,6 +219,16 @@ def _made_in(parts: Sequence[PartOfValue], d: TermDifference, alone: bool) -> li
         last = own[-1][0]  # of several names for the same, the first one
         found.append(next((p.of, x) for p, x in own if p.terms == last.terms))
     return found
+
+
+def _is_still(part: PartOfValue, term: sp.Expr) -> bool:
+    """Whether a term with an acceleration is none of a value, which has no acceleration and is multiplied by none."""
+    exprs = (part.factor, *part.terms)
+    return any(map(_is_second, _rates(term))) and not any(_is_second(d) for x in exprs for d in _rates(x))
+
+
+def _rates(expr: sp.Expr) -> list[sp.Derivative]:
+    return [d for d in expr.atoms(sp.Derivative) if isinstance(d, sp.Derivative)]
 
 
 def _in_value(part: PartOfValue, d: TermDifference) -> TermDifference | None:

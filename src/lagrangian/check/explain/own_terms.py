@@ -21,6 +21,7 @@ from lagrangian.check.explain.counted_twice import TooMuch, too_much
 from lagrangian.check.explain.efforts import Effort, effort_of
 from lagrangian.check.explain.misconceptions.base import partner, put
 from lagrangian.check.explain.powers import power_between
+from lagrangian.check.explain.ratios import of_ratio
 from lagrangian.check.explain.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.explain.search import SMALL, simple_number
 from lagrangian.check.reference import Reference, terms
@@ -161,6 +162,8 @@ def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
             return "divided_by", text("In the term ", term, " there is the divisor ", less, " too much.")
         return "factor_missing", text("In the term ", term, ", the factor ", less, " is missing.")
     if more.is_Symbol and less.is_Symbol:
+        if (ratio := of_ratio(term, right, more, less)) is not None:
+            return ratio
         return "letter", text("In the term ", term, ", ", more, " stands in place of ", less, ".")
     return "factor_of_a_term", text("The term ", term, " should be ", right, ".")
 

@@ -20,6 +20,7 @@ from lagrangian.check.explain.balance_terms import Laws, Mend, is_mass, mends, p
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.either_sign import sign_in_one_of_two
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
+from lagrangian.check.explain.pieces_shared import wrong_share
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
 from lagrangian.check.explain.solved_forces import (
     Balances,
@@ -252,6 +253,10 @@ def _one_blamed(
                 found = [replace(m, cost=m.cost - MOMENT) for m in found]
             listed[i] = found
     if (best := plainest(listed)) is None:
+        share = wrong_share(truth, balances) if len(apart) > 1 else None
+        if share is not None and (u := balances.forces_without(share[0])) is not None:
+            false = tuple(x for x in later if not is_true(truth, x, truth.accelerations | u))
+            return WrongBalance(share[0], balances.lines[share[0]], share[1], false, few=True)
         i = next((i for i in told if not parts[i].tentative), None)
         return None if i is None else WrongBalance(i, balances.lines[i], parts[i].term, few=True, known=parts[i])
     i, term = best

@@ -22,6 +22,7 @@ from lagrangian.check.explain.combined_rows import (
     with_combined_rows,
 )
 from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.determinant_said import with_determinant
 from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
@@ -38,6 +39,8 @@ VAGUE = ("special_case", "denominator", "multiplier_missing")
 def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put. A definition from which all that is wrong follows goes first."""
+    if (divided := with_determinant(truth, lines, verdict)) is not verdict:
+        return divided
     told = _with_terms(truth, lines, verdict)
     if told.hint and told.status is Status.WRONG and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
         return _with_definition(truth, lines, verdict) or told

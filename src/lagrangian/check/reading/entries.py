@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
-_ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6]{1,2})\}?(?=\s*=(?!=))")
+_ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
 _MATRIX = re.compile(r"(?<![\w\\.])([A-Za-z]\w{0,9})\s*=\s*\[")
 _SOLVED = re.compile(
     r"^(?P<left>[^=\n]{1,200})=[ \t]*(?:inv\([ \t]*(?P<inv>[A-Za-z]\w{0,9})[ \t]*\)[ \t]*[*·]?"
@@ -22,10 +22,15 @@ _SOLVED = re.compile(
 _ACCELERATIONS = re.compile(r"q?acc(?:el(?:erations?)?)?|a|sol|ans")
 _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
 
-_COLUMN = r"[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
+_LOWERED = str.maketrans("₁₂₃₄₅₆", "123456")
+
+_COLUMN = r"(?:\*\*)?[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
 """What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
 
-_SIDE = r"^(?![^\n]*∂)[^\n]*[=+-][ \t]*NAME(?![\w(])[ \t]*(?:=|[.,;]?[ \t]*$)"
+_SIDE = (
+    r"^(?![^\n]*∂)[^\n]*[=+-][ \t]*(?:\*\*)?NAME(?![\w(])(?:\*\*)?[ \t]*"
+    r"(?:=|[.,;:]?[ \t]*$|,?[ \t]+(?:with|where|in which|mit|wobei|wo)\b)"
+)
 MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 
@@ -64,7 +69,7 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
         return written
     found: dict[str, dict[str, str]] = {}
     for match in _ENTRY.finditer(written.text):
-        found.setdefault(match["name"], {}).setdefault(match["place"], match.group().strip())
+        found.setdefault(match["name"], {}).setdefault(match["place"].translate(_LOWERED), match.group().strip())
     given = set(_MATRIX.findall(written.text))
     numbers = [str(k + 1) for k in range(count)]
     added: list[str] = []

@@ -149,10 +149,17 @@ def tell_expression(side: Tree, reader: Meaning, what: str) -> None:
 
 
 def _names_alone(side: Tree) -> bool:
+    """Whether a side is a name, or a list or matrix of names."""
     side = inside(side)
     if isinstance(side, Tree) and side.data == "matrix":
         return all(_names_alone(x) for row in side.children[1:] for x in row.children)  # type: ignore[union-attr]
     return only_name(side) is not None
+
+
+def is_of_entries(token: Token, side: Tree) -> bool:
+    """Whether a matrix only puts entries together that have the name of the matrix and a number: Q = [Q1; Q2]."""
+    names = [str(x) for x, _ in names_in(side)]
+    return _names_alone(side) and all(x.startswith(str(token)) and len(x) > len(token) for x in names)
 
 
 def is_general(value: sp.Expr) -> bool:

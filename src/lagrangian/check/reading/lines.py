@@ -22,6 +22,7 @@ from lagrangian.check.reading.line_forms import (
     forget_unused,
     is_aside,
     is_general,
+    is_of_entries,
     is_rate_of,
     made_line,
     matrix_rows,
@@ -45,6 +46,7 @@ from lagrangian.check.reading.placeholders import (
     is_placeholder,
     is_slope,
     is_vector,
+    multiple_of_energy,
     slope_of_L,
 )
 from lagrangian.check.reading.redefined import contradicting
@@ -303,10 +305,9 @@ class Lines:
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
             self.names.define(token, value)  # M q'' + K q = Q means the forces that this answer gives
-            return [
-                self._stated(Subject("Xi", name=n), x, [side, side], side, reader)
-                for n, x in zip(names, value, strict=True)
-            ]
+            own = is_of_entries(token, self._statements[self.names.statement].sides[-1])
+            stated = [] if own else zip(names, value, strict=True)
+            return [self._stated(Subject("Xi", name=n), x, [side, side], side, reader) for n, x in stated]
         self.names.define(token, value)
         rates = {k for k, x in spelled_rates(token) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
@@ -322,7 +323,7 @@ class Lines:
         """Whether a statement uses a name beside other matrices, or as one side, M q'' = f, or states its rate."""
         listed = (s.sides for s in self._statements if self._has_matrices(s.sides))
         rated = any(is_rate_of(token, s.sides[0]) for s in self._statements)
-        return rated or any(key(str(x)) == key(str(token)) for y in listed for side in y for x, _ in names_in(side))
+        return rated or any(key(undotted(x)[0]) == key(token) for y in listed for side in y for x, _ in names_in(side))
 
     def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Compare the velocity or acceleration of a point with the derivative of its position, given before."""
@@ -372,8 +373,8 @@ class Lines:
         if (derived := self.subjects.derived((a, left), (b, right))) is not None:
             return made_line(*derived, a, b, reader)
         for side, value in ((left, right), (right, left)):
-            if not is_general(value) and (own := [x for x, energy in ENERGIES.items() if energy == side]):
-                return made_line(cast("Kind", own[0]), None, value, None, a, b, reader)  # (T, V) = (m x'^2/2, k x^2/2)
+            if not is_general(value) and (own := multiple_of_energy(side)) is not None:  # 2 T = m x'^2, (T, V) = (…, …)
+                return made_line(cast("Kind", own[0]), None, value / own[1], None, a, b, reader)
         if is_general(left) or is_general(right):
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):

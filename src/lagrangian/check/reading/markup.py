@@ -111,3 +111,15 @@ def opened_list(text: str) -> str:
 def _one_a_line(text: str) -> str:
     """The entries of a list on one line; between those that stand on a line each is a semicolon."""
     return _BREAK.sub(lambda m: ";" if m["next"] else " ", text)
+
+
+_FACTOR = re.compile(
+    r"(?:power|energy|function|energie|leistung|funktion|dissipation)[ \t]+(?P<factor>\d)[ \t]*$", re.IGNORECASE
+)
+
+
+def before_factor(text: str, end: int) -> int:
+    """Where a name at ``end`` begins with its factor, where words stand in front: lost power 2 D; the number of a part
+    is none, as in case 2 D."""
+    found = _FACTOR.search(text, 0, end)
+    return end if found is None else found.start("factor")

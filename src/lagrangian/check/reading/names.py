@@ -19,7 +19,7 @@ from lagrangian.check.reading.name_hints import factors_of, hint_for
 from lagrangian.check.reading.nodes import names_in, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
-from lagrangian.check.reading.own_values import OwnValues
+from lagrangian.check.reading.own_values import OwnValues, component_of
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
@@ -228,6 +228,8 @@ class Names:
                 return *found, order + dots
         if (near := self._near_rate(base, token, source)) is not None:
             return near[0], self.scope[near[0]], near[1] + dots
+        if (entry := component_of(base, self._matrix)) is not None:
+            return base, entry, dots
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
 
     def _matrix(self, base: str) -> Value | None:

@@ -75,3 +75,9 @@ def is_placeholder(symbol: sp.Basic) -> bool:
 def is_slope(symbol: sp.Basic) -> bool:
     """Whether a symbol is the placeholder of the derivative of a quantity without a value."""
     return isinstance(symbol, AppliedUndef) and symbol.func.__name__.startswith("\u27e8slope ")
+
+
+def multiple_of_energy(side: sp.Expr) -> tuple[str, sp.Expr] | None:
+    """Which energy a side is, and how often: 2 T; None for any other."""
+    held = [(kind, side / energy) for kind, energy in ENERGIES.items() if side.has(energy)]
+    return held[0] if len(held) == 1 and held[0][1].is_number else None

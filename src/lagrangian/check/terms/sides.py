@@ -49,6 +49,9 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
         return "", difference  # on the side of the accelerations, M qdd = f - K q
     names = _names(difference.written if difference.written != 0 else difference.term)
     near_left, near_right = (any(_names(x) == names for x in side) for side in (here, there))
+    if not near_left and not near_right and difference.written == 0:
+        acting = _inputs(difference.term, line.sides)
+        near_left, near_right = (any(x in acting for y in side for x in y.args) for side in (here, there))
     if near_right and not near_left:
         return flipped
     alone = len(sp.Add.make_args(left)) == 1
@@ -86,6 +89,12 @@ def _names(term: sp.Expr) -> frozenset[str]:
     moving = {x.func.__name__ for x in term.atoms(AppliedUndef)}
     names = frozenset(map(key, moving | {str(x) for x in term.free_symbols if x != time}))
     return names | {str(f.func) for f in term.atoms(sp.sin, sp.cos)}
+
+
+def _inputs(term: sp.Expr, sides: tuple[sp.Expr, sp.Expr]) -> set[sp.Expr]:
+    """The factors of a term that are functions of time of which no rate stands in an equation: F of F R."""
+    moving = {d.expr for x in sides for d in x.atoms(sp.Derivative)}
+    return {x for x in sp.Mul.make_args(term) if isinstance(x, AppliedUndef) and x not in moving}
 
 
 def _is_moving(term: sp.Expr) -> bool:

@@ -65,6 +65,12 @@ class LetterChanges:
                 continue
             if (atom, k) not in self._written:
                 self._written[atom, k] = self.ring.expr(instead)
+            ratio = self._ratio(site, atom, self._written[atom, k]) if kind == "letter" else None
+            if ratio is not None:
+                yield LocalChange(
+                    kind="factor_missing", cost=cost + site.surcharge, site=site, effect=effect, written=ratio
+                )
+                continue
             if kind == "lost" and 0 in exponents:
                 kind = "lost_in_a_sum"
             times = exponents - {0} if kind.startswith("lost") else set[int]()
@@ -84,6 +90,19 @@ class LetterChanges:
                     one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
                     more = cost + one + site.surcharge
                     yield LocalChange(kind=kind, cost=more, site=site, effect=effect, right=right)
+
+    def _ratio(self, site: Site, atom: int, other: sp.Expr) -> sp.Expr | None:
+        """The ratio that is gone if another letter, by which an atom is divided or which it divides, stands in its
+        place: then no such letter is left that could stand there."""
+        if not isinstance(self.ring.atoms[atom], sp.Symbol) or not isinstance(other, sp.Symbol):
+            return None
+        own = self.ring.atom(other)
+        pairs = {(exponent(m, atom), exponent(m, own)) for s in site.sums() for m in s}
+        pairs = {(a, b) for a, b in pairs if a}
+        if not pairs or any(a * b >= 0 or abs(a) > abs(b) for a, b in pairs):
+            return None
+        times = {a for a, _ in pairs}
+        return (self.ring.atoms[atom] / other) ** min(times, key=abs) if len(times) == 1 else None
 
     def _is_of_one_ledger(self, site: Site, atom: int) -> bool:
         """Whether all of V, of T* or of Ξ has a letter and nothing else: without g, a kinetic energy and a weight are

@@ -64,7 +64,8 @@ class MarkingInterpreter(Interpreter):
         if isinstance(value, MatrixBase):
             return self._matrix(value, node, name, line)
         if isinstance(value, list) and len(value) == len(node.elts) and all(isinstance(x, sp.Expr) for x in value):
-            return [self.marks.marked(x, name, line, (k, 0), len(value)) for k, x in enumerate(value)]
+            pairs = enumerate(zip(value, node.elts, strict=True))
+            return [x if _is_name(of) else self.marks.marked(x, name, line, (k, 0), len(value)) for k, (x, of) in pairs]
         return value
 
     def _matrix(self, value: MatrixBase, node: ast.List | ast.Tuple, name: str, line: int) -> Value:
@@ -73,7 +74,14 @@ class MarkingInterpreter(Interpreter):
         listed = [x.elts if isinstance(x, (ast.List, ast.Tuple)) else [x] for x in rows]
         if len(listed) != value.shape[0] or any(len(x) != value.shape[1] for x in listed):
             return value
-        return self.marks.matrix(value, name, line)
+        made = self.marks.matrix(value, name, line)
+        plain = {k for k, row in enumerate(listed) if len(row) == 1 and _is_name(row[0])}
+        return made if not plain else sp.Matrix([value[k] if k in plain else made[k] for k in range(len(made))])
+
+
+def _is_name(node: ast.AST) -> bool:
+    """Whether an entry of a column is a name alone: w of dz = [w; tau/I], by which the rates of states are known."""
+    return isinstance(node, (ast.Name, ast.Subscript))
 
 
 def _computes(node: ast.AST) -> bool:

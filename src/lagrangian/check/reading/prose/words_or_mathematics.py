@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.markup import before_factor, blank
 from lagrangian.check.reading.prose.words import Words, function_of
 
 _REMARK = re.compile(r"(?<!\S)\(([^\W\d_][^()=+*/^\n]*)\)")
@@ -225,7 +225,7 @@ def without_lead(text: str, words: Words) -> str:
     """Return a statement without the words in front of it: absolute displacements x1 = w1 + s."""
     match = _LEADING.match(text)
     if (said := _DEFINES.match(text)) is not None and _introduces(said, words):
-        return blank(text, 0, said.start("name"))
+        return blank(text, 0, before_factor(text, said.start("name")))
     if match is None:
         return text
     stated = "=" in text

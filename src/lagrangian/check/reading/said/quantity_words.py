@@ -32,6 +32,8 @@ _VALUE = re.compile(
     r"(?:(?P<zero>0)|(?P<entries>[^,;:=|\n]{1,120}(?:,[^,;:=|\n]{1,120}){1,2}))[ \t.]*+"
 )
 """An item of such a list: a zero, or the entries of a column."""
+MOST_WORDS = 4
+"""The most words of a label before the place of a point or a body."""
 _WORDS = re.compile(r"[A-Za-z]{4,20}")
 _ENCLOSED = re.compile(r"[(\[][^()\[\]]{0,120},")
 """A comma within brackets."""
@@ -111,6 +113,8 @@ def labelled(value: Value, side: Tree, reader: Meaning, moving: bool) -> list[An
     words = " ".join(before.strip(" \t:-–—*#>").split())
     if heading := reader.names.headed.get(place.line or 0):
         words = f"{heading}, {words}"
+    if _is_place(value, words, reader):
+        words = f"position of {words}"
     kinds = kinds_of_words(words) if " " in words else ()
     if not kinds or (kinds == ("acceleration",)) != moving or (moving and value.free_symbols & _amounts(reader)):
         return []
@@ -118,6 +122,21 @@ def labelled(value: Value, side: Tree, reader: Meaning, moving: bool) -> list[An
         entries = enumerate(value.flat(), 1)
         return [made_line("definition", None, x, f"{words}_{k}", side, side, reader) for k, x in entries]
     return [made_line("definition", None, value, words, side, side, reader)]
+
+
+def _is_place(value: Value, words: str, reader: Meaning) -> bool:
+    """Whether a label stands before a column of lengths that move, as the places of points and bodies are."""
+    if not isinstance(value, MatrixBase) or value.shape != (reader.names.model.dimension, 1) or not words:
+        return False
+    if kinds_of_words(words) or _OTHER.search(words) or _ACCELERATION.search(words) or len(words.split()) > MOST_WORDS:
+        return False
+    model = reader.names.model
+    places = [x for p in model.points for x in model.position(p)]
+    letters = {x for place in places for x in bounded.letters(model.expand(place))}
+    moving = {c.symbol for c in model.coordinates}
+    listed = [model.expand(x) for x in value.flat()]
+    held = {y for x in listed for y in bounded.letters(x)}
+    return held <= letters and bool(held & moving) and not any(x.has(sp.Derivative) for x in listed)
 
 
 def _amounts(reader: Meaning) -> set[sp.Basic]:
