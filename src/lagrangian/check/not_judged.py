@@ -30,6 +30,7 @@ _GOES_ON = re.compile(r"[ \t]*+(?!\*{1,2}\w)(?:[-+−*·/=&)\]}]|\\(?:q?quad|end
 _LISTED = re.compile(r"[ \t]{0,8}[-+*][ \t]+[^\W\d_]{2}")
 """A point of a list that begins with words."""
 _ENDS_OPEN = re.compile(r"[-+−*·/=&(\[{,][ \t]*$|\\\\?[ \t]*$")
+_HEADING = re.compile(r"[ \t]*\*\*[^*\n=]{1,80}\*\*[ \t]*")
 _UNJUDGED = re.compile(r"'(?P<text>.{1,400})' was not judged")
 _RATE = re.compile(r"_?d{1,2}ot$")
 _NUMBER = re.compile(r"[ \t]*[-+−]?\d{1,9}(?:[.,]\d{1,9})?[ \t]*")
@@ -65,7 +66,7 @@ def unjudged_above(text: str, verdict: Verdict, model: Model, answer: Answer) ->
     lines, partly = list[int](), list[int]()
     for number, row in enumerate(rows[: first.line.number - 1], 1):
         goes_on = _GOES_ON.match(row) and not _LISTED.match(row)
-        if goes_on or (number > 1 and _ENDS_OPEN.search(rows[number - 2])):
+        if goes_on or _HEADING.fullmatch(row) or (number > 1 and _ENDS_OPEN.search(rows[number - 2])):
             continue
         if number in above.judged:
             partly += [number] if above.lacks_a_part(number, row) else []

@@ -128,10 +128,10 @@ def _sums_written(
         sums[moving] = sums.get(moving, sp.S.Zero) + still
     found: dict[sp.Expr, tuple[float, float, set[Any]]] = {}
     for moving, number in sums.items():
-        value = number.xreplace(table)
+        value = cast("Any", number.xreplace(table))
         if not value.is_number or not value.is_finite or not value.is_real:
             return None
-        slopes = {x: sp.diff(number, x).xreplace(table) for x in number.free_symbols & letters.keys()}
+        slopes: dict[Any, Any] = {x: sp.diff(number, x).xreplace(table) for x in number.free_symbols & letters.keys()}
         off = sum(abs(float(slope)) * letters[x].half for x, slope in slopes.items())
         if abs(float(value)) > 0:
             found[moving] = float(value), off + EXACT * abs(float(value)), set(slopes)
