@@ -1,6 +1,7 @@
 """Sizes are predicted before anything is written out; the predictions are bounds."""
 
 from collections.abc import Iterator
+from random import Random
 from typing import Any, cast
 
 import pytest
@@ -10,7 +11,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import lagrangian as lg
 from effort import at_most
 from lagrangian import bounded
-from lagrangian.bounded import searches, writing
+from lagrangian.bounded import products, searches, writing
 from lagrangian.bounded.effort import CallCount
 
 a, b, c, d, e = sp.symbols("a b c d e")
@@ -286,3 +287,46 @@ def test_letters_that_are_kept_are_not_changed_by_who_asks() -> None:
     expr = a * q + b
     bounded.letters(expr).clear()
     assert bounded.letters(expr) == {a, b, q, t}
+
+
+NOT_PLAIN = [(a + b) ** 2 / (c + d), sp.sin(a * (b + c)) * (d + e), 0.5 * a * (b + c), (a + b) * (c + d) ** -2]
+
+
+@pytest.mark.parametrize("expr", NOT_PLAIN)
+def test_only_exact_sums_of_products_are_multiplied_out_without_sympy(expr: sp.Expr) -> None:
+    assert products.multiplied_out(expr) is None
+    assert bounded.expand(expr) == sp.expand(expr)
+
+
+def test_sums_are_multiplied_out_as_sympy_does() -> None:
+    source = Random(7)
+    moving = [q, w, q.diff(t), sp.sin(q), sp.cos(q + w), a, b, c, sp.pi]
+
+    def made(depth: int) -> sp.Expr:
+        if depth == 0:
+            return source.choice(moving) ** source.choice((1, 1, 2, -1))
+        parts = [made(depth - 1) for _ in range(source.randint(2, 3))]
+        if source.random() < 0.5:
+            return sp.Mul(*parts)
+        return sp.Add(*[source.choice((1, -2, sp.Rational(1, 3))) * x for x in parts]) ** source.choice((1, 1, 2))
+
+    exprs = [x for x in (made(source.randint(1, 3)) for _ in range(150)) if sp.fraction(x)[1].is_Add is not True]
+    found = [(x, products.multiplied_out(x)) for x in exprs if bounded.terms(x) < 100]
+    assert sum(value is not None for _, value in found) > 60
+    for expr, value in found:
+        assert value is None or value == sp.expand(expr)
+
+
+SHORT = [a * q**2 / (b * sp.sin(q)), (a + b) / (a * c + b * c), a / (a + b) + b / (a + b), (a**2 - b**2) / (a + b)]
+
+
+@pytest.mark.parametrize("expr", SHORT)
+def test_short_quotients_are_those_of_sympy_and_need_no_count(expr: sp.Expr, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(searches, "_counted")
+    assert bounded.cancel(expr) == sp.cancel(expr)
+    assert bounded.together(expr) == sp.together(expr)
+
+
+@pytest.mark.parametrize("expr", [(a**1_000 - b**1_000) / (a - b), sp.sqrt(a + b) / (a + b), (a + sp.exp(b)) / (c + 1)])
+def test_high_powers_roots_and_other_functions_are_counted(expr: sp.Expr) -> None:
+    assert not searches._is_brief(expr) and not searches._is_product(expr)

@@ -7,12 +7,13 @@ from functools import lru_cache
 from typing import Any, TypeVar, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from lagrangian.bounded.effort import CallCount, SpentError, count_operations
+from lagrangian.bounded.effort import CallCount, SpentError, count_operations, uncounted
 from lagrangian.bounded.irreducible import product
-from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
+from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, each, size, terms
 
 T = TypeVar("T")
 
@@ -21,6 +22,12 @@ CALLS = 300_000
 
 PROOFS = 10_000
 """The number of calls after which the sign of an argument is left undecided; x² + 1 takes a hundredth of it."""
+
+BRIEF, FEW, LOW = 40, 16, 4
+"""The size, the terms and the exponents up to which a search for a common factor is short without being counted."""
+
+PRICE = 5_000
+"""The operations that such a search counts as, about what it takes."""
 
 
 def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
@@ -55,12 +62,12 @@ def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:
 
 def cancel(expr: sp.Expr) -> sp.Expr:
     """Return a quotient without common factors, or the expression unchanged if the search takes too long."""
-    return _found(sp.cancel, expr)
+    return expr if _is_product(expr) else _found(sp.cancel, expr)
 
 
 def together(expr: sp.Expr) -> sp.Expr:
     """Return an expression over one denominator, or unchanged if that takes too long."""
-    return _found(sp.together, expr)
+    return expr if _is_product(expr) else _found(sp.together, expr)
 
 
 def simplify(expr: sp.Expr) -> sp.Expr:
@@ -103,10 +110,10 @@ class _GivenUpError(Exception):
 
 
 class _Result:
-    """What a search found, how many calls it made, and whether these were counted by whoever asked first."""
+    """What a search found, the calls that it counts as, and whether these are still to be counted by whoever asks."""
 
-    def __init__(self, found: Any, calls: int) -> None:
-        self.found, self.calls, self.counted = found, calls, False
+    def __init__(self, found: Any, calls: int, *, counted: bool = False) -> None:
+        self.found, self.calls, self.counted = found, calls, counted
 
 
 def _searched_once(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
@@ -123,7 +130,38 @@ def _searched_once(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
 
 @lru_cache(maxsize=2_000)
 def _kept(routine: Callable[[Any], Any], expr: sp.Expr) -> _Result:
+    if routine in (sp.cancel, sp.together) and _is_brief(expr):
+        return _Result(uncounted(lambda: routine(expr)), PRICE, counted=True)
     found, calls = _counted(routine, (expr,), CALLS)
     if found is None:
         raise _GivenUpError
     return _Result(found, calls)
+
+
+def _is_brief(expr: sp.Expr) -> bool:
+    """Whether a common factor of an expression is found soon: it is short, and its powers are low."""
+    if size(expr) > BRIEF or terms(expr) > FEW:
+        return False
+    return all(isinstance(x, _SUMS) or _is_letter(x) or (isinstance(x, sp.Pow) and _is_low(x)) for x in each(expr))
+
+
+def _is_low(power: sp.Pow) -> bool:
+    """Whether the exponent of a power is a small whole number."""
+    return isinstance(power.exp, sp.Integer) and abs(power.exp.p) <= LOW
+
+
+def _is_product(expr: sp.Expr) -> bool:
+    """Whether an expression is a product of letters, and so a quotient without common factors."""
+    factors = expr.args if isinstance(expr, sp.Mul) else (expr,)
+    bases = [x.args[0] if isinstance(x, sp.Pow) and isinstance(x.args[1], sp.Integer) else x for x in factors]
+    return all(_is_letter(x) or (isinstance(x, (sp.sin, sp.cos)) and _is_letter(x.args[0])) for x in bases)
+
+
+def _is_letter(node: sp.Basic) -> bool:
+    """Whether a node is a number, a letter, or a function of time or its rate."""
+    function = node.expr if isinstance(node, sp.Derivative) else node
+    own = isinstance(function, AppliedUndef) and all(isinstance(x, sp.Symbol) for x in function.args)
+    return own or isinstance(node, (sp.Symbol, sp.Rational))
+
+
+_SUMS: tuple[Any, ...] = (sp.Add, sp.Mul, sp.sin, sp.cos)

@@ -12,6 +12,7 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from lagrangian.bounded.parts import bent, replaced
+from lagrangian.bounded.products import multiplied_out
 from lagrangian.bounded.searches import cancel, together
 from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, check_size, each, size, terms
 from lagrangian.bounded.slopes import diff
@@ -45,7 +46,10 @@ def _multiplied(expr: sp.Expr) -> sp.Expr:
             sums = sums or any(isinstance(a, sp.Add) for a in node.args)
         elif node.args and not isinstance(node, _PLAIN) and not _is_of_time(node):
             return cast("sp.Expr", sp.expand(expr))
-    return cast("sp.Expr", sp.expand(expr, **_SUMS_ONLY)) if sums else expr
+    if not sums:
+        return expr
+    found = multiplied_out(expr)
+    return cast("sp.Expr", sp.expand(expr, **_SUMS_ONLY)) if found is None else found
 
 
 def _is_of_time(node: sp.Basic) -> bool:

@@ -89,7 +89,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
     tokens: list[AnswerToken] = []
     at = 0
     value = (given := _VALUE.fullmatch(text)) is not None and _is_unit(given["behind"], given["name"], words)
-    units = value or _in_units(text, words)
+    units = value or _in_units(text, words, sure=words.units)
     while at < len(text):
         match = TOKEN.match(text, at)
         assert match is not None
@@ -198,10 +198,10 @@ def with_points(text: str) -> str:
     return "".join(letters)
 
 
-def _in_units(text: str, words: Words) -> bool:
+def _in_units(text: str, words: Words, *, sure: bool) -> bool:
     """Whether what follows the numbers of a statement are units: one is no product of names, 300 N/m, or the answer is
-    read so, and nothing else in the statement is a parameter: (8 kg + 2 kg) x'' + 300 N/m x = F."""
-    rest, at, sure = "", 0, words.units
+    surely read so, and nothing else in the statement is a parameter: (8 kg + 2 kg) x'' + 300 N/m x = F."""
+    rest, at = "", 0
     for match in islice(_NUMBER.finditer(text), MOST):
         if match.start() >= at and (end := _unit(text, match.end(), words, True)[1]) > match.end():
             unit, behind = text[match.end() : end].strip(), _BEHIND.match(text, end)
@@ -225,8 +225,8 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, *, v
         tokens += [AnswerToken(kind, written, number.end, degrees.end()) for kind, written in more]
         return degrees.end()
     factor, end = _unit(text, at, words, units)
-    if factor is None and not units:
-        words.doubtful = words.doubtful or _unit(text, at, words, True)[0] is not None
+    if factor is None and not units and not words.doubtful:
+        words.doubtful = _unit(text, at, words, True)[0] is not None and _in_units(text, words, sure=True)
     made = _decimal(Fraction(number.text) * factor) if factor is not None else None
     if made is None:
         return at
