@@ -18,6 +18,7 @@ def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(200_000, 50, 100)  # most of what is made lives long: it is seldom looked at
     _keep_bytecode(config)
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
+    os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")  # as the command sets it
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # every core has its process: more threads wait for each other
     # how long an example takes depends on what else the machine does, and says nothing about the package
     settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -26,6 +26,10 @@ PER_PROCESS = 25
 ALONE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Small products of matrices are not worth threads, which would only wait for each other's core."""
 
+KEPT = {"SYMPY_CACHE_SIZE": "20000"}
+"""How many results of each of its functions SymPy keeps, unless a user says otherwise: answers of a class need the same
+ones."""
+
 PATIENCE = 10
 """The time [s] for a process to end whose output has ended."""
 
@@ -128,7 +132,7 @@ class _Team(threading.Thread):
             stderr=subprocess.DEVNULL,
             text=True,
             encoding="utf-8",
-            env={**os.environ, **ALONE, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            env={**KEPT, **os.environ, **ALONE, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         )
         self._process = process
         answer = _exchanged(process, json.loads(self._opening))
