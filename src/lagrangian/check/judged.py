@@ -41,6 +41,9 @@ from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
+REPEATED = 0.3
+"""By how much more a wrong equation resembles one that another line says already, where it is meant to be that."""
+
 
 @dataclass(frozen=True, eq=False)
 class Judged:
@@ -213,7 +216,7 @@ def _equations(
     for later in (False, True):  # the same equations once more do not take the places of the first ones
         some = [j for j in wrong if follow[j] is later]
         likes = [likeness(forms[j], truth.forms) for j in some]
-        pairs |= zip(some, [x or nearest(y) for x, y in zip(paired(likes, taken), likes, strict=True)], strict=True)
+        pairs |= zip(some, [_meant(x, y) for x, y in zip(paired(likes, taken), likes, strict=True)], strict=True)
     found = findings_of(truth, lines, comparison)
     for j in wrong:
         line, like, form = lines[j], pairs[j], forms[j]
@@ -234,6 +237,13 @@ def _equations(
         name = name_of(truth, index)
         found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
     return found
+
+
+def _meant(free: Likeness | None, likes: Sequence[Likeness]) -> Likeness | None:
+    """The right equation that a wrong one is meant to be: one that no other line says, unless it resembles one that is
+    said already by far more, as a result that repeats a balance above."""
+    best = nearest(likes)
+    return best if best is not None and (free is None or best.score - free.score > REPEATED) else free
 
 
 def _is_kinematic(truth: Reference, expr: sp.Expr) -> bool:
