@@ -45,6 +45,7 @@ from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import read_in_own_letters
+from lagrangian.check.reading.said.deviations import constants_of_deviations
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
@@ -69,7 +70,7 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = (
     r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
-    r"|\bwhere|\bwith|\band"
+    rf"|\bwhere|\bwith|\band|(?<=\s)\((?={NAME}[ \t]*=[ \t]*{NAME}[ \t]*[,)])"
 )
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
@@ -161,7 +162,8 @@ def _with_said_values(
     answer = replace(answer, marked=again if "[" in text or any(x.name for x in answer.lines) else None)
     if not answer.unknown:
         return answer
-    typed, lines = plainer(text), Lines(model)
+    lines = Lines(model)
+    typed = with_starred_names(TracedText(plainer(text)), lines.names.known).text
     latex = answer.notation == "latex"
     names = [u.name for u in answer.unknown if asked is None or u.name in asked]
     said = said_values(typed, names, _words(lines, typed), latex=latex)
@@ -382,6 +384,7 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(name)
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
+    own |= dict.fromkeys(constants_of_deviations(text))
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)

@@ -228,7 +228,8 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
             continue
         if (kind, other) == ("name", "value"):
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
-            sure = bool(lower & _IS) and not lower & {"not", "nicht"}
+            says = lower & _IS - {"the"} or between[:1] == ("the",)  # the string pulls with A at the lever r
+            sure = bool(says) and not lower & {"not", "nicht"}
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
             yield from (
                 (a, b, sure)
