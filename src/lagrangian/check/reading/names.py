@@ -63,6 +63,8 @@ class Names:
         """The number of the statement that is read."""
         self.stated: dict[str, Value] = {}
         self.unknown: dict[str, Unknown] = {}
+        self.renamed: dict[str, Unknown] = {}
+        """The names that were read as others of the system, with the symbols of these."""
         self.notes: dict[str, None] = {}
         """How names were read that the answer does not spell as the system does."""
         self.rates: dict[tuple[str, int], Value] = {}
@@ -197,7 +199,10 @@ class Names:
             raise source.error(what, start_of(token), fix="write the one you mean", code="E402")
         if names:
             if key(undotted(token)[0]) != key(names[0]):
-                self.notes.setdefault(f"'{undotted(token)[0]}' was read as {names[0]}.")
+                base = undotted(token)[0]
+                self.notes.setdefault(f"'{base}' was read as {names[0]}.")
+                symbol = self.scope[names[0]]
+                self.renamed.setdefault(key(base), Unknown(base, symbol, source.at(start_of(token))))
             return names[0], self.scope[names[0]], dots
         base, dots = undotted(token)
         if key(base) not in self.own:

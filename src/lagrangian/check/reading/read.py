@@ -47,6 +47,7 @@ from lagrangian.check.reading.read_steps import equations_of_motion, read_progra
 from lagrangian.check.reading.renamed import read_in_own_letters
 from lagrangian.check.reading.said.deviations import constants_of_deviations
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
+from lagrangian.check.reading.said.mentioned import chosen_names, described_names, mentioned_names
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -87,17 +88,6 @@ _COUNTED = re.compile(rf"(?<![\w.])\d{{1,3}}[ \t]+((?>{NAME}))[ \t]*\((?=[^()=\n
 """A name between a number and a sum in brackets: 2 lam (x1 - x2)."""
 _PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{NAME}))")
-_EXPLAINED = re.compile(
-    r"(?<![\w\\])\$?\\?(?P<name>[^\W\d]\w{0,23}+)\$?\)?"
-    r"(?:[ \t]{0,9}+(?::|=|\bis\b|\bdenotes\b|\bmeans\b|\bfor\b|\.{2,9}|[…–—|-])[ \t]{0,9}+|[ \t]{2,20}+)"
-    r"(?:(?:the|an?)[ \t])?(?P<word>[^\W\d_]{4,})"
-)
-"""A name with words that say what it is: rho: radius of the drum."""
-_CHOSEN = re.compile(
-    r"\bcoordinates?\b[^.;=\n]{0,60}\bthe[ ](?:angle|distance|displacement|position)[ ]"
-    r"(?P<name>[^\W\d]\w{0,23}+)(?=[ ][a-z])"
-)
-"""A coordinate of the answer that words explain: as second coordinate the angle β through which the disc turns."""
 
 
 def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
@@ -261,8 +251,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         "latex" if latex else "text",
         tuple(lines.names.unknown.values()),
         notes,
-        frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"])),
-        frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)},
+        described_names(given, lines.names.known),
+        frozenset(lines.unread) | chosen_names(given),
         remarks.said,
         tuple(partial(_answer, given, model, place, x, []) for x in others),
         together(lines.doubts) if lines.doubts else None,
@@ -273,6 +263,10 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         commented=bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
+        renamed=tuple(lines.names.renamed.values()),
+        mentioned=mentioned_names(
+            given, [u.name for u in (*lines.names.unknown.values(), *lines.names.renamed.values())]
+        ),
     )
 
 
