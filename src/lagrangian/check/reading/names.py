@@ -105,6 +105,11 @@ class Names:
         """The names that no statement explains, as they are written."""
         return frozenset(u.name for u in self.unknown.values())
 
+    @property
+    def asked(self) -> list[str]:
+        """The names that nothing explains, and those that were read as others."""
+        return [u.name for u in (*self.unknown.values(), *self.renamed.values())]
+
     def gather(self, trees: Iterable[Tree]) -> None:
         """Record which names occur in the trees, and which of them are differentiated anywhere."""
         for tree in trees:
@@ -201,7 +206,7 @@ class Names:
             if key(undotted(token)[0]) != key(names[0]):
                 base = undotted(token)[0]
                 self.notes.setdefault(f"'{base}' was read as {names[0]}.")
-                symbol = self.scope[names[0]]
+                symbol: Any = self.scope[names[0]]
                 self.renamed.setdefault(key(base), Unknown(base, symbol, source.at(start_of(token))))
             return names[0], self.scope[names[0]], dots
         base, dots = undotted(token)

@@ -227,8 +227,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     lines.names.dependents = stated | called_definitions(text, lines.names)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
-    text = text if latex else with_spoken_signs(text, words)
-    source = source if latex else plain.source(typed, text)
+    source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
     written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
@@ -264,9 +263,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
         renamed=tuple(lines.names.renamed.values()),
-        mentioned=mentioned_names(
-            given, [u.name for u in (*lines.names.unknown.values(), *lines.names.renamed.values())]
-        ),
+        mentioned=mentioned_names(given, lines.names.asked),
     )
 
 
