@@ -120,6 +120,11 @@ def test_explained_names_of_a_puck_on_a_rod(answer: str, slip: tuple[str, str]) 
             ("l*sin", "2*l*sin"),
             id="a formula that begins with a bracket",
         ),
+        pytest.param(
+            "x1 = phi\nx2 = phi'\nR = l cos(x1)\nx1' = x2\nx2' = (M - b x2 - m g R tan(x1))/(m l^2)",
+            ("- m g", "+ m g"),
+            id="a lever arm of states that is no dissipation",
+        ),
         pytest.param("m l² φ̈ + b φ̇ + U′ = M\nU′ = m g l sin φ", ("sin φ", "cos φ"), id="the slope of an energy"),
     ],
 )

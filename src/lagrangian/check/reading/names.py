@@ -207,7 +207,8 @@ class Names:
                 base = undotted(token)[0]
                 self.notes.setdefault(f"'{base}' was read as {names[0]}.")
                 symbol: Any = self.scope[names[0]]
-                self.renamed.setdefault(key(base), Unknown(base, symbol, source.at(start_of(token))))
+                if len(base) == 1 and base.isascii():  # no th of θ
+                    self.renamed.setdefault(base, Unknown(base, symbol, source.at(start_of(token))))
             return names[0], self.scope[names[0]], dots
         base, dots = undotted(token)
         if key(base) not in self.own:
