@@ -78,6 +78,21 @@ def cart() -> lg.Derivation:
 
 
 @cache
+def geared() -> lg.Derivation:
+    """A pendulum that turns n times as fast as its crank, with a spring and a damper on the crank."""
+    s = lg.System("pendulum on a gear")
+    phi = s.coordinate("phi")
+    m, l, g = s.parameter("m", 2), s.parameter("l", 0.5), s.parameter("g", 9.81)
+    n, b, k = s.parameter("n", 3), s.parameter("b", 0.1), s.parameter("k", 4)
+    s.particle(m, at=s.frame(n * phi - sp.pi / 2, name="arm").point(l, 0), name="bob")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=phi)
+    s.damper(b, deflection=phi)
+    s.torque(s.input("M"), on=phi, name="motor")
+    return s.derive()
+
+
+@cache
 def wheels() -> lg.Derivation:
     """A drum on a torsion spring that a roller with a motor drives at its rim."""
     s = lg.System("drum and roller")
@@ -130,4 +145,17 @@ def pushed_cart() -> lg.Derivation:
     s.spring(k, deflection=x, name="spring")
     s.damper(b, deflection=x, name="damper")
     s.force((s.input("F"), 0), at=bob, name="wind")
+    return s.derive()
+
+
+@cache
+def pendulum() -> lg.Derivation:
+    """A pendulum with a damper that a motor turns."""
+    s = lg.System("pendulum")
+    phi = s.coordinate("phi")
+    m, l, g, b = s.parameters("m l g b")
+    s.particle(m, at=s.point("P", (l * sp.sin(phi), -l * sp.cos(phi))), name="bob")
+    s.gravity((0, -1), g)
+    s.damper(b, deflection=phi)
+    s.torque(s.input("M"), on=phi, name="motor")
     return s.derive()

@@ -93,7 +93,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
         other = None if verdict.right else _expanded(derivation.model)
         if other is None:
             if isinstance(given, Answer) and (asked := unexplained(derivation, given, verdict)):
-                raise question(asked)
+                raise question(asked, given.mentioned)
             return verdict
         derivation = other
     if isinstance(given, Answer):
@@ -212,7 +212,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         lines = without_names_of_equations(decides.lines, asked)
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
-            raise question(asked)
+            raise question(asked, answer.mentioned)
     verdict = _apart(derivation, answer, fitting(told_truly(_with_origins(derivation, answer, verdict, hint))))
     return _told(verdict, answer, decides.notes)
 

@@ -48,16 +48,19 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     A misspelled name of the system, a name that was read as a coordinate, and a force that the equations determine are
     known.
     """
-    if verdict.status is not Status.WRONG or not answer.unknown:
+    renamed = [u for u in answer.renamed if u.name in answer.mentioned]
+    if verdict.status is not Status.WRONG or not (answer.unknown or renamed):
         return ()
     lines = without_constants(with_accelerations(lines_of(answer)), [u.symbol for u in answer.unknown])
     given = {key(d.symbol.name) for d in derivation.definitions}
-    asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given]
+    asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given] + renamed
     moving = _moving(derivation.model, lines, answer)
-    asked = [u for u in asked if u not in moving and not _is_known(u, derivation.model, lines)]
+    told = answer.mentioned
+    asked = [u for u in asked if u not in moving and (u.name in told or not _is_known(u, derivation.model, lines))]
     asked = [u for u in asked if any(x.expr.has(u.symbol) for x in lines)]
     asked = [u for u in asked if not _is_gravity(u, derivation.model)]
-    asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
+    last = not any(u.name in told for u in asked) and _is_last(derivation, lines, asked, answer.described)
+    asked = [] if last else asked
     equations = [line for line in lines if line.kind == "equation"]
     forces = [u for u in asked if derivation.multipliers and is_factor_of_forces(u.symbol, lines)]
     if derivation.form == "structured":
@@ -86,14 +89,16 @@ def _is_gravity(unknown: Unknown, model: Model) -> bool:
     return unknown.name == "g" and not any(isinstance(e, (Gravity, Potential)) for e in model.elements)
 
 
-def question(asked: Sequence[Unknown]) -> ParseError:
-    """The error that asks what names mean, each at its first place."""
-    found = [_asked(u) for u in asked[:MOST_ASKED]]
+def question(asked: Sequence[Unknown], mentioned: Collection[str] = ()) -> ParseError:
+    """The error that asks what names mean, each at its first place; ``mentioned``: those of which the answer says
+    something."""
+    found = [_asked(u, said=u.name in mentioned) for u in asked[:MOST_ASKED]]
     return found[0].with_others(found[1:])
 
 
-def _asked(unknown: Unknown) -> ParseError:
-    what = f"cannot be read: what is '{unknown.name}'? The system has no such name, and the answer does not explain it"
+def _asked(unknown: Unknown, *, said: bool) -> ParseError:
+    why = "what the answer says of it was not understood" if said else "the answer does not explain it"
+    what = f"cannot be read: what is '{unknown.name}'? The system has no such name, and {why}"
     more = f" {unknown.suggestion}" if unknown.suggestion else ""
     fix = f"add a line such as '{unknown.name} = …' with names of the system, or use its names.{more}"
     return ParseError(what, element="the answer", place=unknown.place, fix=fix, code="E402")
@@ -116,7 +121,10 @@ def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> 
     related = (x.expr for x in lines if x.kind == "equation" and not bounded.atoms(x.expr, AppliedUndef))
     if any(expr.has(symbol) for expr in related):
         return True
-    names = [plain(x.symbol) for x in (*model.parameters, *model.inputs, *model.coordinates)]
+    symbols = [x.symbol for x in (*model.parameters, *model.inputs, *model.coordinates)]
+    used = {x for line in lines for x in bounded.letters(line.expr)}  # K beside k is no k
+    same = plain(symbol).lower()
+    names = [plain(x) for x in symbols if x not in used or plain(x).lower() != same]
     return sum(_resembles(plain(symbol), x) for x in names) == 1
 
 

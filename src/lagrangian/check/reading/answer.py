@@ -148,6 +148,11 @@ class Answer:
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 
+    renamed: tuple[Unknown, ...] = field(default=(), repr=False, compare=False)
+    """The names that were read as other ones of the system, with the symbols of these: I as J."""
+    mentioned: frozenset[str] = field(default=frozenset(), repr=False, compare=False)
+    """The names, unknown or renamed, of which words that were not read may say a value."""
+
     sentences: tuple[ParseError, ...] = field(default=(), repr=False, compare=False)
     """The errors of sentences that were not read and may say an equation of motion."""
 

@@ -40,7 +40,8 @@ _CALLED = re.compile(
     r"(?:\\left)?\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
 )
 """A name with coordinates or rates in brackets: V(θ), U'(x), T(ẋ), J_P(θ)."""
-_LETTERS_IN = re.compile(r"\\?[^\W\d_]\w*+")
+_LETTERS_IN = re.compile(r"\\?[^\W\d_⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*+")
+_FUNCTION = re.compile(r"(?:sin|cos|tan)(?=[^\W\d_])")
 _ENERGIES = frozenset(["T", "V", "U", "K", "L", "E"])
 _OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
 
@@ -69,7 +70,8 @@ def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bo
         stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
         energy = name in _ENERGIES
         if stated is not None and (
-            energy or {*map(key, listed)} <= {key(written(x)) for x in _LETTERS_IN.findall(stated["value"])}
+            energy
+            or {*map(key, listed)} <= {key(_FUNCTION.sub("", written(x))) for x in _LETTERS_IN.findall(stated["value"])}
         ):
             yield match
 

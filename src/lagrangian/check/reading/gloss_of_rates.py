@@ -1,6 +1,6 @@
 """Takes off an answer in plain text how a rate is written otherwise, where this stands in brackets behind it.
 
-x2 = θ̇ (dθ/dt)        x2 = theta' (= dtheta/dt)        v = dx/dt (= x')
+x2 = θ̇ (dθ/dt)        x2 = theta' (= dtheta/dt)        v = dx/dt (= x')        (xd, yd their derivatives)
 
 A rate is said twice only where it is the whole value of a name and its line ends behind the brackets or goes on with
 something else: anywhere else brackets are a factor, and so is the same rate in the same spelling.
@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable
 from unicodedata import normalize
 
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.read.letters import key, undotted
 
@@ -23,6 +24,11 @@ _GLOSS = re.compile(
     rf"[ \t]*+(?P<gloss>\((?P<equal>[ \t]*+[=≡])?[ \t]*+(?P<other>{_RATE})[ \t]*+\))(?=[ \t]*+(?:[,;.]\s|[,;.]?$))",
     re.MULTILINE,
 )
+_DERIVATIVES = re.compile(
+    rf"\([ ,]{{0,24}}(?P<listed>{_NAME}(?:[ ]?(?:,|and|und)[ ]{_NAME}){{0,11}})[ ,:]{{1,3}}(?:(?:are|sind|for)[ ])?"
+    r"(?:their|the|its|ihre|die)[ ](?:time[ ])?(?:derivatives?|rates?|velocities|[Aa]bleitungen)[ .]?\)"
+)
+"""A list of rates in brackets, and that they are: (xd, yd their derivatives)."""
 _FRACTION = re.compile(rf"d(?P<two>{_TWO})?[ ]?(?P<of>{_NAME})(?:\(t\))?[ ]?/[ ]?dt(?P<twice>{_TWO})?")
 _LETTERS = re.compile(r"(?P<of>[^\W\d_]\w{0,20}?)_?(?P<dots>ddot|dot)")
 
@@ -42,7 +48,12 @@ def without_glosses_of_rates(text: TracedText, changes: Callable[[str], bool]) -
             return match.group()
         return match.group()[: match.start("gloss") - match.start()].rstrip(" \t")
 
-    return text.sub(_GLOSS, plain)
+    def without_list(match: re.Match[str]) -> str:
+        listed = re.findall(_NAME, match["listed"])
+        rates = [any(changes(stem) for _, stem in spelled_rates(x)) or changes(x) for x in listed]
+        return "" if all(rates) else match.group()
+
+    return text.sub(_GLOSS, plain).sub(_DERIVATIVES, without_list)
 
 
 def _rate(written: str) -> tuple[str, int, str] | None:

@@ -63,6 +63,8 @@ class Names:
         """The number of the statement that is read."""
         self.stated: dict[str, Value] = {}
         self.unknown: dict[str, Unknown] = {}
+        self.renamed: dict[str, Unknown] = {}
+        """The names that were read as others of the system, with the symbols of these."""
         self.notes: dict[str, None] = {}
         """How names were read that the answer does not spell as the system does."""
         self.rates: dict[tuple[str, int], Value] = {}
@@ -101,6 +103,11 @@ class Names:
     def unexplained(self) -> frozenset[str]:
         """The names that no statement explains, as they are written."""
         return frozenset(u.name for u in self.unknown.values())
+
+    @property
+    def asked(self) -> list[str]:
+        """The names that nothing explains, and those that were read as others."""
+        return [u.name for u in (*self.unknown.values(), *self.renamed.values())]
 
     def gather(self, trees: Iterable[Tree]) -> None:
         """Record which names occur in the trees, and which of them are differentiated anywhere."""
@@ -196,7 +203,11 @@ class Names:
             raise source.error(what, start_of(token), fix="write the one you mean", code="E402")
         if names:
             if key(undotted(token)[0]) != key(names[0]):
-                self.notes.setdefault(f"'{undotted(token)[0]}' was read as {names[0]}.")
+                base = undotted(token)[0]
+                self.notes.setdefault(f"'{base}' was read as {names[0]}.")
+                symbol: Any = self.scope[names[0]]
+                if len(base) == 1 and base.isascii():  # no th of θ
+                    self.renamed.setdefault(base, Unknown(base, symbol, source.at(start_of(token))))
             return names[0], self.scope[names[0]], dots
         base, dots = undotted(token)
         if key(base) not in self.own:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
@@ -29,6 +29,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.said_names import with_named_formulas
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
@@ -49,8 +50,15 @@ from lagrangian.check.reading.programs.templates import with_templates_applied
 from lagrangian.check.reading.prose.relaxed import without_relaxed
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
-from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
+from lagrangian.check.reading.said.derivative_legends import (
+    with_derivative_legends,
+    with_paired_rates,
+    with_raised_dots,
+)
+from lagrangian.check.reading.said.deviations import with_deviations_of_inputs
+from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.quantity_words import with_items
+from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -59,9 +67,11 @@ from lagrangian.check.reading.said.stands_for import (
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.tables import with_tables
+from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
+from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.traced_text import TracedText
-from lagrangian.check.reading.unit_checks import without_unit_checks
+from lagrangian.check.reading.unit_checks import without_unit_checks, without_units_of_numbers
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
 
@@ -103,8 +113,20 @@ def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], l
         applied = with_functions_applied(text, taken, names.notes)
         text = with_own_derivatives(with_slopes_by_arguments(applied, moves, taken, names.notes), moves, taken)
     text = with_declared_slopes(text, moves, taken, names.notes, latex=latex)
+    text = with_primes_of_slopes(text, moves, taken, names.notes, latex=latex)
     text = with_primes_as_slopes(text, taken, names.changes, latex=latex)
     return with_slopes_of_definitions(text, names, latex=latex)
+
+
+def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedText:
+    """An answer in plain text whose rates have primes, however it says what its marks for them mean."""
+
+    def has(name: str) -> bool:
+        return key(name) in own
+
+    paired = with_paired_rates(with_raised_dots(text, names.changes), names.changes, has)
+    pointed = with_p_as_points(with_derivative_legends(paired, names.changes, has), names.changes, has)
+    return without_glosses_of_rates(pointed, names.changes)
 
 
 def without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -131,15 +153,12 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
-        session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
-        paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
-        session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
-        session = without_glosses_of_rates(session, names.changes)
+        session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     relaxed = without_legend(without_references(indexed))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
-    referred = without_unit_checks(relaxed, taken)
+    referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = _with_slopes(tagless, lines, taken, latex)
@@ -150,6 +169,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
+    inputs = {key(x.name) for x in lines.model.inputs}
+    tagless = with_deviations_of_inputs(tagless, lambda name: key(name) in inputs)
     varied = with_variations(tagless, taken, None if latex else names.changes)
     said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
     said = with_called_dissipation(with_values_above(said), taken)
@@ -160,7 +181,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_derivatives_in_latex(with_open_text(without_sets(said.sub(_ROW_OF, lambda _: ""))))
     else:
         beside = with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
-        said = with_stated_values(with_derivatives(beside), taken)
+        starred = with_starred_names(with_derivatives(beside), names.known)
+        said = with_stated_values(with_explained_names(starred, taken, lambda name: key(name) in own), taken)
         said = with_stated_rates(said, of, names.known, sure=True)
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_items(named, text, names)

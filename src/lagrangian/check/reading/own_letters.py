@@ -51,7 +51,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if kind == "D" and not energies and _is_constant(sides, listed, meant, given, model):
             found.add(key(str(named[0])))
             continue
-        if kind == "D" and len(meant) == len(listed) and any(c.name in meant for c in model.coordinates):
+        own = {key(x) for x in listed if not names.scope.meanings(x)[0]}
+        placed = own or any(c.name in meant for c in model.coordinates)
+        if kind == "D" and placed and own <= given - rates and len(set(map(key, listed)) - own) == len(set(meant)):
             held = (str(x) for s in statements if s is not sides for side in s for x, _ in names_in(side))
             found |= {key(str(named[0]))} if str(named[0]) in held else set()  # R = e + l cos(theta) is an arm
             continue

@@ -6,6 +6,7 @@ The parser of a notation defines its tokens, its operands, and whether two adjac
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from copy import deepcopy
 
 from lark import Tree
@@ -83,6 +84,24 @@ class Parser(ABC):
                 fix="give the inner parts names on lines of their own: h = …",
                 code="E703",
             )
+
+    def multiplied(self, first: Node, joins: Callable[[Node, Node], bool]) -> list[Node]:
+        """Read the next factor, with its operator, if it ``joins`` the ``first`` one in an argument without brackets;
+        read nothing if it does not."""
+        at, tokens, depth = self.i, list(self.tokens), len(self.opened)
+        signed = self.accept("times")
+        found: Tree | None = None
+        if signed is not None or self.side_by_side():
+            start = self.next.start
+            try:
+                found = self.operand()
+            except ParseError:
+                found = None
+            if found is not None and joins(first, found):
+                return [leaf("OPERATOR", "*", start), found]
+        self.i, self.tokens = at, tokens
+        del self.opened[depth:]
+        return []
 
     def unclosed(self) -> ParseError | None:
         """Return the error for a bracket that is still open at the end of a side."""

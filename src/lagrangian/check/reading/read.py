@@ -45,7 +45,9 @@ from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import read_in_own_letters
+from lagrangian.check.reading.said.deviations import constants_of_deviations
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
+from lagrangian.check.reading.said.mentioned import chosen_names, described_names, mentioned_names
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -69,7 +71,7 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = (
     r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
-    r"|\bwhere|\bwith|\band"
+    rf"|\bwhere|\bwith|\band|(?<=\s)\((?={NAME}[ \t]*=[ \t]*{NAME}[ \t]*[,)])"
 )
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
@@ -86,17 +88,6 @@ _COUNTED = re.compile(rf"(?<![\w.])\d{{1,3}}[ \t]+((?>{NAME}))[ \t]*\((?=[^()=\n
 """A name between a number and a sum in brackets: 2 lam (x1 - x2)."""
 _PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{NAME}))")
-_EXPLAINED = re.compile(
-    r"(?<![\w\\])\$?\\?(?P<name>[^\W\d]\w{0,23}+)\$?\)?"
-    r"(?:[ \t]{0,9}+(?::|=|\bis\b|\bdenotes\b|\bmeans\b|\bfor\b|\.{2,9}|[…–—|-])[ \t]{0,9}+|[ \t]{2,20}+)"
-    r"(?:(?:the|an?)[ \t])?(?P<word>[^\W\d_]{4,})"
-)
-"""A name with words that say what it is: rho: radius of the drum."""
-_CHOSEN = re.compile(
-    r"\bcoordinates?\b[^.;=\n]{0,60}\bthe[ ](?:angle|distance|displacement|position)[ ]"
-    r"(?P<name>[^\W\d]\w{0,23}+)(?=[ ][a-z])"
-)
-"""A coordinate of the answer that words explain: as second coordinate the angle β through which the disc turns."""
 
 
 def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
@@ -161,7 +152,8 @@ def _with_said_values(
     answer = replace(answer, marked=again if "[" in text or any(x.name for x in answer.lines) else None)
     if not answer.unknown:
         return answer
-    typed, lines = plainer(text), Lines(model)
+    lines = Lines(model)
+    typed = with_starred_names(TracedText(plainer(text)), lines.names.known).text
     latex = answer.notation == "latex"
     names = [u.name for u in answer.unknown if asked is None or u.name in asked]
     said = said_values(typed, names, _words(lines, typed), latex=latex)
@@ -235,8 +227,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     lines.names.dependents = stated | called_definitions(text, lines.names)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
-    text = text if latex else with_spoken_signs(text, words)
-    source = source if latex else plain.source(typed, text)
+    source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
     written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
@@ -259,8 +250,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         "latex" if latex else "text",
         tuple(lines.names.unknown.values()),
         notes,
-        frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"])),
-        frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)},
+        described_names(given, lines.names.known),
+        frozenset(lines.unread) | chosen_names(given),
         remarks.said,
         tuple(partial(_answer, given, model, place, x, []) for x in others),
         together(lines.doubts) if lines.doubts else None,
@@ -271,6 +262,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         commented=bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
+        renamed=tuple(lines.names.renamed.values()),
+        mentioned=mentioned_names(given, lines.names.asked),
     )
 
 
@@ -382,6 +375,7 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(name)
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
+    own |= dict.fromkeys(constants_of_deviations(text))
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)

@@ -20,8 +20,10 @@ _RAISED = re.compile(
 )
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
+_SAYS = r"(?:is|ist|means|denotes|abbreviates|stands[ \t]for|bezeichnet|bedeutet|steht[ \t]für)"
 _STATED = re.compile(
-    rf"(?:^|[,;:(]|(?<=\w))[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|is\b)", re.MULTILINE
+    rf"(?:^|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|{_SAYS}\b)",
+    re.MULTILINE,
 )
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
 """A star at the end of a heading: factor of s*:"""

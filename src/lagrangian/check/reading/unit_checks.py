@@ -1,11 +1,11 @@
-"""Takes checks of units off an answer: units: m g l = kg m/s² m = N m, b θ̇ = N m."""
+"""Takes checks of units off an answer: units: m g l = kg m/s² m = N m, b θ̇ = N m; and units behind sums of numbers."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 _SAID = re.compile(
     r"^[^\w\n]{0,6}(?:\d{1,2}[.)][ \t]*)?(?:(?:check|checking|kontrolle|probe)[ \t]+(?:(?:of|the|der)[ \t]+){0,2})?"
@@ -19,6 +19,27 @@ _PART = re.compile(r"[^,;\n]++")
 _NAME = re.compile(r"[^\W\d_]+")
 _OTHER = re.compile(r"[\w\s*·./^()\[\]{}²³⁻¹−$-]*")
 """What a product of units consists of."""
+_NUMBER = r"\d{1,12}(?:[.,]\d{1,12})?"
+_UNIT = (
+    r"[ ]?(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s)(?:(?:²|³|\^\d)?[ ]?[·*/]?[ ]?(?:kg|N|m|s|rad)(?![A-Za-z_])){0,4}(?:²|³|\^\d)?"
+    r"(?![\w'’′(^*/·])"
+)
+_SUM = re.compile(
+    rf"(?<![\w.,)/*^+·−-])(?<![/*^+·−-][ ])(?:{_NUMBER}[ ]?[-+−·*×/][ ]?){{1,8}}{_NUMBER}[ ]?=[ ]?{_NUMBER}"
+    rf"(?P<unit>{_UNIT})"
+)
+"""A sum of numbers with the unit of its value: 15 + 4.8 = 19.8 kg m²."""
+_INERTIA = re.compile(
+    rf"(?<![\w.,=])(?<!=[ ]){_NUMBER}(?P<unit>[ ]?kg[ ]?[·*]?[ ]?m(?:²|\^2))(?![\w'’′(^])(?=[^\n=]*=|[^\n=]*\n)"
+)
+"""A moment of inertia in an equation, which is no product: (19.8 kg m² + …) θ''."""
+
+
+def without_units_of_numbers(written: TracedText) -> TracedText:
+    """Return an answer without the units behind sums of numbers and behind moments of inertia in equations, whose
+    letters may be names of the system: kg is no k·g."""
+    found = (m.span("unit") for form in (_SUM, _INERTIA) for m in form.finditer(written.text))
+    return written.edited(apart((start, end, "") for start, end in found))
 
 
 def without_unit_checks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -6,9 +6,12 @@ sin(2θ) θ̇. A constant followed by t counts as one factor there: ``\cos\omega
 
 from __future__ import annotations
 
+from functools import partial
+
 from lark import Tree
 
 from lagrangian.check.reading.latex.quotients import CLOSING, LatexFractions
+from lagrangian.check.reading.multiple_angles import is_multiple
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import (
     Node,
@@ -333,6 +336,8 @@ class LatexParser(LatexFractions):
                 break
             if self.next.kind == "letters" and self.next.text == "t":
                 children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
+            else:
+                children += self.multiplied(children[-1], partial(is_multiple, names=self.names))
             break
         return node("product", start, *children)
 

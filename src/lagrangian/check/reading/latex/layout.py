@@ -18,12 +18,14 @@ _COLOURED = re.compile(
 _UNITS = re.compile(r"(?<=\d)(?:\s|~|\\[,;:! ])*\\(?:mathrm|text|textrm|si|unit)\s*\{(?P<unit>[^{}]{0,60})\}")
 _ENVIRONMENT = re.compile(r"\\begin\{(?P<kind>(?:align|gather|flalign|alignat)\*?)\}(?:\{\d\})?")
 _BETWEEN = re.compile(r"\\(?:short)?intertext\s*\{")
+_ROW_ENDS = re.compile(r"(?:\\\\(?:\[[^\]]{0,12}\])?|\\begin\{[a-z]{1,12}\*?\}(?:\{\d\})?)\s*\Z")
+"""What stands before the beginning of a row."""
 _MAX = 200
 
 
 def with_open_text(written: TracedText) -> TracedText:
     r"""Return an answer in which words with mathematics between rows, \\intertext{with $a = b$}, stand outside the
-    environment, which ends before them and begins again behind them."""
+    environment, which ends before them and begins again behind them; a row ends before all such words."""
     text = written.text
     edits: list[Edit] = []
     for match in list(_BETWEEN.finditer(text))[:_MAX]:
@@ -33,6 +35,8 @@ def with_open_text(written: TracedText) -> TracedText:
             last = opened[-1]
             edits.append((*match.span(), f"\\end{{{last['kind']}}}\n"))
             edits.append((end - 1, end, f"\n{last.group()}"))
+        elif opened and _ROW_ENDS.search(text, max(0, match.start() - 60), match.start()) is None:
+            edits.append((match.start(), match.start(), "\\\\ "))
     return written.edited(edits)
 
 

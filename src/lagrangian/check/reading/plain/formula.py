@@ -7,8 +7,11 @@ m L^2 phi''  k(x1 - x2)  2mgL      Eq(a, b)
 
 from __future__ import annotations
 
+from functools import partial
+
 from lark import Tree
 
+from lagrangian.check.reading.multiple_angles import is_multiple
 from lagrangian.check.reading.nodes import (
     Node,
     column,
@@ -341,6 +344,8 @@ class PlainParser(PlainCalls):
                 break
             if self.next.kind == "name" and self.next.text == "t":
                 children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
+            elif kind == "name":
+                children += self.multiplied(children[-1], partial(is_multiple, names=self.words.names))
             break
         tree = node("product", start, *children)
         while self._goes_on():

@@ -14,6 +14,13 @@ _TWO = re.compile(
     r"(?<![\\\w*/^+=-])(?P<word>[^\W\d_]{2,6})[ \t]++(?=(?P<next>[^\W\d_]{3,24})(?![\w'’′(*/^=]))", re.IGNORECASE
 )
 """A short word with a longer one behind it, and no sign of mathematics beside them."""
+_NOUN = re.compile(
+    r"(?<![\\\w])(?:the|an?|each|our|der|die|das|den|dem|des|eine[mnrs]?)[ \t]++"
+    r"(?P<word>[a-zäöü]{4,24})(?=[ \t,.;:)]|$)",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""A word behind an article: at the drum u = r φ."""
+_VOWEL = re.compile(r"[aeiouyäöü]", re.IGNORECASE)
 _SPELLED_OUT = re.compile(r"[ \t]{0,9}[^\W\d_](?:[ \t]?[·*×⋅][ \t]?[^\W\d_]){1,7}(?![ \t]?[\w·*×⋅/^+(-])")
 _DOUBLED = re.compile(
     r"(?:[-=+*/(,;]|(?<!\w)\d{1,3}|^)[ \t]*+(?P<name>(?P<letter>[A-Za-z])(?P=letter))[ \t]?+"
@@ -32,9 +39,12 @@ _MOST = 500
 
 
 def spoken_words(text: str, words: Words) -> frozenset[str]:
-    """Return the common words in an answer that stand in front of a word and never beside an operator."""
+    """Return the common words in an answer that stand in front of a word, and the words behind articles, which never
+    stand beside an operator."""
     found = (m for m in islice(_TWO.finditer(text), _MOST) if m["word"].lower() in LINKING - ARTICLES)
-    return frozenset(m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words))
+    short = {m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words)}
+    nouns = {m["word"] for m in islice(_NOUN.finditer(text), _MOST) if _VOWEL.search(m["word"])}
+    return frozenset(short | {x for x in nouns if not words.known(x) and not words.is_used(x) and not function_of(x)})
 
 
 def doubled_letters(text: str) -> dict[str, None]:

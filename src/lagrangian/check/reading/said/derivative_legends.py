@@ -72,6 +72,21 @@ def with_paired_rates(written: TracedText, moves: Callable[[str], bool], taken: 
     return written.edited(edits)
 
 
+_RAISED = re.compile(
+    r"(?<![\w\\.])(?P<name>[^\W\d]\w{0,15}+)[ ]?\^[ ]?(?P<open>[({])?(?P<dots>\.{1,2})(?(open)[)}])(?![\d.])"
+)
+"""Dots in the place of an exponent: phi^. and phi^.."""
+
+
+def with_raised_dots(written: TracedText, moves: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which dots behind ^ are primes; ``moves`` says whether a name changes."""
+
+    def primed(match: re.Match[str]) -> str:
+        return f"{match['name']}{chr(39) * len(match['dots'])}" if moves(match["name"]) else match.group()
+
+    return written.sub(_RAISED, primed)
+
+
 @dataclass(frozen=True)
 class _Mark:
     """A mark in front of names or behind them, and the order of the derivative."""

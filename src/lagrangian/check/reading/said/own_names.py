@@ -104,6 +104,13 @@ _GROUP = re.compile(
     r"(?:(?:the|die)[ \t\n](?:[^\W\d_]{3,20}[ \t\n]){1,3})?"
     rf"(?P<own>{_NAME}(?:[ \t]{{0,9}}(?:,|and|und)[ \t]{{1,9}}{_NAME}){{1,7}})(?![\w'’′^(*/+$\\{{=])"
 )
+_LISTED = re.compile(rf"\([ ]?(?P<own>{_NAME}(?:[ ]?(?:,|and|und)[ ]{_NAME}){{1,7}})(?:[ ][^()=+*/^]{{0,40}})?\)")
+"""The names of the system in brackets behind a list that says for what the letters are."""
+_FOR_WHAT = re.compile(rf"{_NEW}[ \t\n]{{1,9}}(?:for|für)[ \t\n]{{1,9}}(?:the|an?|die|den|das|der)[ \t\n]")
+_SENTENCE = re.compile(r"[.;:!?](?=\s)|\n[ \t]*\n")
+_TIME = re.compile(r"(?<![\w\\])t[ ]?=[ ]?(?P<own>[^\W\d_]\w{0,15}+)(?![\w'’′(*/+^-])(?:,[ ]?)?")
+"""The letter of time for a coordinate, t = theta, where nothing is differentiated by it."""
+_BY_TIME = re.compile(r"d[ ]?t(?!\w)|\([ ]?t[ ]?\)|(?<!\w)t[ ]?(?:>|>=|→)[ ]?0")
 _ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
 _SIGNS = frozenset("-+−*/^=(·½¼²³'’′")
 _JOIN = re.compile(r"[(){}\[\]]|(?:,|;|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
@@ -227,6 +234,22 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
             sure = re.search(_INSTEAD, match.group()) is not None
             for a, b in zip(new, own, strict=True):
                 yield DeclaredLetter(a, system.find(b)[0], match.span(), sure)
+    for match in _LISTED.finditer(text):
+        first = max(0, match.start() - 2 * LONGEST)
+        said = _SENTENCE.split(text[first : match.start()])[-1]
+        items = list(_FOR_WHAT.finditer(text, match.start() - len(said), match.start()))
+        own = [x for y in _ANY.finditer(match["own"]) if (x := _bare(y.group())) not in ("and", "und")]
+        new = [_bare(x["new"]) for x in items]
+        if len(new) == len(own) and all(_may_be(a, b, system) for a, b in zip(new, own, strict=True)):
+            spans.append((items[0].start(), match.end()))
+            for a, b in zip(new, own, strict=True):
+                yield DeclaredLetter(a, system.find(b)[0], spans[-1], True)
+    moving = {c.name for c in system.model.coordinates}
+    for match in _TIME.finditer(text) if _BY_TIME.search(text) is None else ():
+        if len(own := system.find(match["own"])) == 1 and own[0] in moving and not system.find("t"):
+            spans.append(match.span())
+            yield DeclaredLetter("t", own[0], match.span(), True)
+            break
     for start, end, led in _items(text):
         if any(a < end and start < b for a, b in spans):
             continue
@@ -263,6 +286,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             return None  # p stands for sin theta, for 2 m
         if before.split() and system.find(_bare(before.split()[-1])):
             return None  # U = m e
+        if any(x.lower() in CHANGING for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
+            return None  # B is the damper's force, b times speed
         if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):
             return None  # M is m L, g (m1 - m2)
         if not alone or _PREPOSITIONS.isdisjoint(before.lower().split()):

@@ -66,7 +66,7 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
             continue
         cells = [[_bare(x) for x in line.strip()[1:-1].split("|")] for line in lines]
         if "=" in match.group():
-            edits += _without_labels(match.start(), lines)
+            edits += _sides(match.start(), lines, cells) or _without_labels(match.start(), lines)
             continue
         made = _made([cells[0], *cells[2:]], moves, taken)
         if made is None:
@@ -78,6 +78,31 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
                 edits.append((at, at + len(line), "\n".join(said)))
             at += len(line) + 1
     return written.edited(edits)
+
+
+def _sides(at: int, lines: Sequence[str], cells: Sequence[Sequence[str]]) -> list[Edit]:
+    """The equations of a table whose head says where the right sides stand, | | inertia | = forces |, or that has a
+    column of equals signs: of each row its last cells."""
+    head, body = cells[0], cells[2:]
+    if any(len(row) != len(head) for row in body):
+        return []
+    signs = [k for k in range(1, len(head)) if all(row[k] == "=" for row in body)]
+    said = [k for k, cell in enumerate(head) if k and re.match(r"=(?![=>])", cell)]
+    if len(signs) == 1 and head[signs[0]] in ("", "="):
+        left, right = signs[0] - 1, signs[0] + 1
+    elif not signs and said == [len(head) - 1] and not any("=" in x for row in body for x in row):
+        left, right = len(head) - 2, len(head) - 1
+    else:
+        return []
+    if not 0 <= left <= 1 or right != len(head) - 1:
+        return []  # more columns are terms, or forces
+    edits: list[Edit] = []
+    for k, line in enumerate(lines):
+        row = body[k - 2] if k > 1 else None
+        made = "" if row is None else _statement(row[left], row[right], latex="\\" in row[left] + row[right])
+        edits.append((at, at + len(line), made))
+        at += len(line) + 1
+    return edits
 
 
 def _without_labels(at: int, lines: Sequence[str]) -> Iterator[Edit]:

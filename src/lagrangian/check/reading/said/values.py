@@ -26,6 +26,7 @@ from lagrangian.check.reading.plain.spans import spans
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.check.reading.said.rates_in_comments import rates_in_comments
+from lagrangian.check.reading.unit_checks import UNITS
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
@@ -211,6 +212,8 @@ def _is_value(written: str, words: Words) -> bool:
     named = re.findall(r"[^\W\d⁰¹²³⁴-⁹]\w*", written)
     if named == [written] and not words.names.known(written):
         return False  # another name of the answer
+    if UNITS.issuperset(named) and not all(map(words.names.known, named)):
+        return False  # the stiffness, N/m
     if written[0] in "'’′" or written[-1] in "+-*/^":
         return False
     return bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
@@ -233,7 +236,8 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
             has = bool(lower & _HAVING) and between[-1].lower() not in _HAVING  # the force N with the arm s
             has &= not (lower & _IS) - _HAVING - {"the"} and not lower & _VALUE
-            sure = bool(lower & _IS) and not has and not lower & {"not", "nicht"}
+            says = lower & _IS - {"the"} or between[:1] == ("the",)  # the string pulls with A at the lever r
+            sure = bool(says) and not has and not lower & {"not", "nicht"} and len(first) == len(second)
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
             yield from (
                 (a, b, sure)

@@ -1,0 +1,44 @@
+"""Reads deviations from a position at rest: φ = φ0 + φ1 with a constant φ0, which is not φ, and τ = τ0 + τ1.
+
+The deviation of an input is the input less its constant: τ = τ0 + τ1 is τ1 = τ − τ0.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.read.letters import key
+
+MOST = 20
+"""The most such sums."""
+
+_INDEX = r"_?\{?\w{1,6}\}?"
+_SUM = re.compile(
+    rf"(?<![\w\\'’′^*/+−-])(?P<of>\\?[^\W\d_]\w{{0,11}}?)[ \t]*&?=[ \t]*(?P<rest>(?P=of){_INDEX})[ \t]*\+[ \t]*"
+    rf"(?P<more>(?:\\?[Δδ]|\\?[dD]elta[ ]?_?)?(?P=of)(?:{_INDEX})?)(?![\w'’′(*/^·{{])"
+    r"(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b))"
+)
+"""A quantity as the sum of two, all of the same letter."""
+
+
+def with_deviations_of_inputs(written: TracedText, drives: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which the deviation of an input is stated by itself; ``drives`` says what an input is."""
+    edits: list[Edit] = []
+    for match in islice(_SUM.finditer(written.text), MOST):
+        if match["more"] != match["of"] and drives(_bare(match["of"])):
+            edits.append((*match.span(), f"{match['more']} = {match['of']} - {match['rest']}"))
+    return written.edited(apart(edits))
+
+
+def constants_of_deviations(text: str) -> Iterator[str]:
+    """The names of the constants in such sums: φ0 of φ = φ0 + φ1."""
+    for match in islice(_SUM.finditer(text), MOST):
+        if key(_bare(match["rest"])) != key(_bare(match["of"])):
+            yield _bare(match["rest"])
+
+
+def _bare(name: str) -> str:
+    return re.sub(r"[\\{}]", "", name)

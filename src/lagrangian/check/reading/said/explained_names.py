@@ -1,0 +1,89 @@
+"""Reads what lines of a legend and sentences in plain text say that a name is, with words in front of the formula.
+
+I(phi) ... moment of inertia about the pin, J + m*l^2      I(phi) = J + m*l^2
+K ... static moment, (m*l/2 + M*l)*g                       K = (m*l/2 + M*l)*g
+Here K is k*(r*phi - s), and A stands for b*s'             K = k*(r*phi - s); A = b*s'
+
+A letter that would be read as a name of the system in the other case, K as k, is a name of its own there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import islice
+
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.check.reading.unit_checks import UNITS
+
+MOST = 40
+"""The most such lines and sentences."""
+MOST_LETTERS = 3
+"""The most letters of a product without signs in a formula."""
+
+_NAME = r"[^\W\d]\w{0,15}+"
+_LEGEND = re.compile(
+    rf"^[ \t]*+(?:[-*•–][ \t]++)?(?P<new>{_NAME})(?P<of>\([ ]?{_NAME}[ ]?\))?[ \t]*+"
+    r"(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|ist|means|denotes)\b)[ \t]*+"
+    r"(?P<words>[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}[^\W\d_]{1,24}){0,14})\)?[ \t]*+[,:=–][ \t]*+"
+    r"(?P<value>[^\n=;:…]{2,200}?)[ \t]*+[.;,]?[ \t]*+$",
+    re.MULTILINE,
+)
+"""A line with a name, what it is in words, and its formula."""
+_SAID = re.compile(
+    rf"(?:^[ \t]*+|(?<=[.,;:][ ])|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})[ \t]++"
+    r"(?:is|being|means|denotes|stands[ \t]for|is[ \t]short[ \t]for|abbreviates|ist|bezeichnet|steht[ \t]für)[ \t]++"
+    r"(?P<value>[^\n;:=]{0,60}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
+    rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t])))",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name and its formula in a sentence."""
+_WORD = re.compile(r"[^\W\d_²³⁴]\w*")
+_OPERATOR = re.compile(r"[-−+*/^·×²³(]")
+_SUM = re.compile(r"[-−+(]")
+_POWERS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan)(?=[^\W\d_])")
+
+
+def with_explained_names(written: TracedText, taken: Callable[[str], bool], exact: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which such lines and sentences are statements.
+
+    ``taken`` says whether a name may be one of the system, ``exact`` whether the system spells one so.
+    """
+    text = written.text
+    edits: list[Edit] = []
+    for match in islice(_LEGEND.finditer(text), MOST):
+        words = re.findall(r"[^\W\d_]+", match["words"])
+        spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
+        changed = any(x.lower() in CHANGING for x in words)
+        if spoken and not changed and _is_new(match, text, exact) and _is_formula(match["value"], taken):
+            edits.append((match.start("new"), match.start("value"), f"{match['new']}{match['of'] or ''} = "))
+    for match in islice(_SAID.finditer(text), MOST):
+        own = match["new"] not in _names(match["value"]) and _is_new(match, text, exact)
+        if own and _is_formula(match["value"], taken):
+            edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
+            edits.append((*match.span("end"), ";"))
+    return written.edited(apart(edits))
+
+
+def _is_new(match: re.Match[str], text: str, exact: Callable[[str], bool]) -> bool:
+    """Whether a name is none of the system and is used elsewhere."""
+    used = re.findall(rf"(?<!\w){re.escape(match['new'])}(?!\w)", text)
+    return not exact(match["new"]) and function_of(match["new"]) is None and len(used) > 1
+
+
+def _names(value: str) -> list[str]:
+    """The names in a formula, without functions."""
+    bare = value.translate(str.maketrans(_POWERS, " " * len(_POWERS)))
+    listed = (_FUNCTION.sub("", x) for x in _WORD.findall(bare))
+    return [x for x in listed if function_of(x) is None]
+
+
+def _is_formula(value: str, taken: Callable[[str], bool]) -> bool:
+    """Whether this is a formula in names of the system, and no unit: m/s."""
+    names = _names(value)
+    if not names or _OPERATOR.search(value) is None or (UNITS.issuperset(names) and _SUM.search(value) is None):
+        return False
+    return all(taken(x) or (len(x) <= MOST_LETTERS and all(map(taken, x))) for x in names)
