@@ -12,6 +12,7 @@ from functools import cache
 import pytest
 import sympy as sp
 
+import lagrangian as lg
 from built_in import derivation
 from constrained_systems import smooth_puck
 from lagrangian import Derivation, ParseError, System
@@ -330,3 +331,19 @@ def test_numbers_behind_a_letter_with_dots_are_no_factors() -> None:
     """q̇ has a combining dot, which is no letter."""
     plain, numbered = (parse_answer(f"m ẍ + k x = b q̇{n}", plate().model).equations for n in ("", "  (2)"))
     assert [(x.lhs, x.rhs) for x in plain] == [(x.lhs, x.rhs) for x in numbered]
+
+
+def test_a_quarter_in_a_formula_is_no_value_of_a_parameter() -> None:
+    """The ¼ of an energy of a rolling disc, in a system in which a length is 0.25 m: nothing is read as that length."""
+    s = lg.System("disc on a plank")
+    x = s.coordinate("x")
+    m, k = s.parameters("m k")
+    s.parameter("r", 0.25)
+    s.particle(m, at=s.point("C", (x, 0)), name="disc")
+    s.kinetic(m * x.diff() ** 2 / 4, name="rolling")
+    s.spring(k, deflection=x)
+    d = s.derive()
+    wrong = d.check("T = 1/2 m x'^2 + 1/4 m x'^2\n3/2 m x'' - k x = 0")
+    assert not wrong.right and not [n for n in wrong.notes if "was read as" in str(n)]
+    assert wrong.first_wrong is not None and wrong.first_wrong.line.number == 2
+    assert any("0.25 was read as r" in str(n) for n in d.check("T = 0.25 m x'^2").notes)

@@ -37,6 +37,9 @@ LONGEST = 1_000
 MAX_COEFFICIENTS = 30
 """The largest number of coefficients of an equation whose ratios are formed."""
 
+LONGEST_NUMBER = 20
+"""The most operations of a number, made of sines and cosines of angles, of which ratios are formed."""
+
 MAX_SOLVED, MAX_ELIMINATED = 4, 3
 """The most coordinates of a system whose equations are solved for the accelerations, or freed from some."""
 
@@ -166,7 +169,7 @@ def _right_sums(
         exact = (own[k] / right[k] for k in own if abs(own[k]) not in units and right[k])
         for scale in dict.fromkeys((sp.S.One, sp.S.NegativeOne, *exact)):
             meant = {k: scale * x for k, x in right.items()}
-            off = {abs(x): abs(float(x - meant[k])) for k, x in own.items() if not _same(x, meant[k])}
+            off = {abs(x): abs(_size(x) - _size(meant[k])) for k, x in own.items() if not _same(x, meant[k])}
             if off and all(size in units and far <= 0.5000001 * units[size] for size, far in off.items()):
                 return meant, {float(x) for x in off}
     return own, set()
@@ -190,11 +193,17 @@ def _divided(
 
 def _is_rounded_from(number: sp.Expr, value: sp.Expr) -> bool:
     unit = last_digit(abs(number), FEWEST_IN_RIGHT_LINE) if isinstance(number, sp.Rational) else None
-    return unit is not None and abs(float(number - value)) <= 0.5000001 * unit
+    return unit is not None and abs(_size(number) - _size(value)) <= 0.5000001 * unit
 
 
 def _same(a: sp.Expr, b: sp.Expr) -> bool:
-    return abs(float(a - b)) <= 1e-12 * abs(float(b))
+    return abs(_size(a) - _size(b)) <= 1e-12 * abs(_size(b))
+
+
+@lru_cache(maxsize=5_000)
+def _size(x: sp.Expr) -> float:
+    """The value of a number; kept, as that of cosines of angles is long to find."""
+    return float(x)
 
 
 @lru_cache(maxsize=32)
@@ -225,11 +234,11 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
     """The sizes of all numbers by which motions are multiplied in the right equations and energies, and their ratios in
     each of them."""
     found: dict[sp.Expr, float] = {}
-    for expr in _right_expressions(truth):
+    for expr in _right_expressions(truth, eliminated=False):
         for form in _forms(expr):
             own = _coefficients(form)
             found.update(own)
-            few = list(own.items())[:MAX_COEFFICIENTS]
+            few = [(a, x) for a, x in own.items() if bounded.operations(a) <= LONGEST_NUMBER][:MAX_COEFFICIENTS]
             found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
     found.update({value: float(value) for value in truth.values.values() if value.is_number})
     if truth.prescribed & truth.values.keys():  # where A and Ω stay letters, the factor of φ̈ is a number of its own
@@ -238,9 +247,10 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
     return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
 
 
-def _right_expressions(truth: Reference) -> Iterator[sp.Expr]:
-    """The right equations, energies, forces and constraints; √a = b also as a = b²."""
-    yield from (*truth.rows, *_solved(truth), *_eliminated(truth), truth.T, truth.V, *truth.Xi)
+def _right_expressions(truth: Reference, *, eliminated: bool = True) -> Iterator[sp.Expr]:
+    """The right equations, energies, forces and constraints; √a = b also as a = b². ``eliminated``: also equations from
+    which accelerations were eliminated."""
+    yield from (*truth.rows, *_solved(truth), *(_eliminated(truth) if eliminated else ()), truth.T, truth.V, *truth.Xi)
     for row in rows_of(truth.model):
         yield truth.expand(row.rate)
         if row.position is None:
@@ -277,7 +287,7 @@ def _is_finite(x: sp.Expr) -> bool:
 
 def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
     """The numbers by which what moves is multiplied in an expanded expression."""
-    return {x: float(x) for x in _sums(expr).values() if _is_finite(x)}
+    return {x: _size(x) for x in _sums(expr).values() if _is_finite(x)}
 
 
 def _solved(truth: Reference) -> list[sp.Expr]:

@@ -147,12 +147,18 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
         if p.value is None or p.symbol in used or p.symbol in truth.values or float(p.value).is_integer():
             continue
         number: Any = sp.Rational(str(p.value))
-        if number.q > 2 and any(line.expr.has(number) for line in lines) and number not in table:
+        held = [line for line in lines if line.expr.has(number)] if number.q > 2 and number not in table else []
+        if held and (number not in PLAIN or any(_writes(line.text, p.value) for line in held)):
             table[number] = p.symbol
             notes.append(text(f"{p.value:g} was read as ", p.symbol, "."))
     if not table:
         return lines, ()
     return tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in lines), tuple(notes)
+
+
+def _writes(written: str, value: object) -> bool:
+    """Whether a text has a value as a decimal, 0.25 or 0,25, and not as the ¼ of an energy."""
+    return f"{value:g}" in written.replace(",", ".")
 
 
 def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
