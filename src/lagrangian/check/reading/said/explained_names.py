@@ -35,7 +35,7 @@ _LEGEND = re.compile(
 _SAID = re.compile(
     rf"(?:^[ \t]*+|(?<=[.,;:][ ])|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})[ \t]++"
     r"(?:is|being|means|denotes|stands[ \t]for|is[ \t]short[ \t]for|abbreviates|ist|bezeichnet|steht[ \t]für)[ \t]++"
-    r"(?P<value>[^\n;:=]{0,60}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
+    r"(?P<value>[^\n;:=]{0,30}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
     rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t])))",
     re.MULTILINE | re.IGNORECASE,
 )

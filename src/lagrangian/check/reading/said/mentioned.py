@@ -34,11 +34,11 @@ _AHEAD = re.compile(
     r"(?:\b(?:call\w{0,3}|name[ds]?|label\w{0,3}|abbreviat\w{1,4}|short(?:hand)?(?:[ ]for)?|writ\w{1,4}|letters?|"
     r"symbols?|let|where|with|by|as|quantity|nenne\w?|hei(?:ß|ss)t|bezeichne\w?|mit|wobei|als)[ \t]+"
     r"(?:(?:it|this|that|all|them)[ \t]+)?"
-    r"|\w{3}[ \t]*\([ \t]*)\Z",
+    r"|(?P<open>(?<=[^\W\d_]{3})[ \t]+\([ \t]?))\Z",
     re.IGNORECASE,
 )
 _ENDS = re.compile(r"(?<!\.)\.(?=\s|\Z)|;|\n[ \t]*\n|\n(?=[^\n]{0,200}=)")
-_LAST = re.compile(r".*(?:\.\s|;|\n)", re.DOTALL)
+_LAST = re.compile(r"\.\s|;|\n")
 _UNIT = re.compile(
     r"(?<!\w)(?:kg|Nms|Nm|Ns|N|J|W|rad|m)(?:(?:²|³|\^\d)?[ ]?[·*/]?[ ]?(?:kg|m|s|rad)(?!\w)){0,4}(?:²|³|\^\d)?(?![\w(])"
 )
@@ -77,10 +77,11 @@ def _said(text: str, name: str) -> Iterator[str]:
     for match in islice(form.finditer(text), MOST):
         behind = _ENDS.split(text[match.end() : match.end() + LONGEST])[0]
         before = text[max(0, match.start() - LONGEST) : match.start()]
-        whole = _LAST.sub("", before)
+        whole = _LAST.split(before)[-1]
         if _BEHIND.match(behind) is not None and re.search(r"[^\W\d_]{3}", behind) is not None:
             yield behind
-        elif _AHEAD.search(before) is not None and re.search(r"[^\W\d_]{3}", whole) is not None:
+        ahead = _AHEAD.search(before)
+        if ahead is not None and (not ahead["open"] or behind[:1] == ")") and re.search(r"[^\W\d_]{3}", whole):
             yield whole + " " + behind
 
 
