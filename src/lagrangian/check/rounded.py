@@ -17,7 +17,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.explain.combined_rows import cleared
+from lagrangian.check.cleared import cleared
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine

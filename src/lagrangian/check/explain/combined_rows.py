@@ -16,6 +16,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.cleared import cleared
 from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict, inserted
@@ -82,12 +83,6 @@ def as_written(lines: Sequence[AnsweredLine], line: AnsweredLine) -> AnsweredLin
     """A line as the answer has it, without the multiplier with which it was compared with others."""
     same = [x for x in lines if (x.kind, x.number, x.text, x.name) == (line.kind, line.number, line.text, line.name)]
     return same[0] if len(same) == 1 else line
-
-
-def cleared(expr: sp.Expr) -> sp.Expr:
-    """An equation that is solved for an acceleration, times its denominator, if that is a sum."""
-    divided = any(x.exp.is_negative and isinstance(x.base, sp.Add) for x in expr.atoms(sp.Pow))
-    return sp.fraction(bounded.together(expr))[0] if divided else expr
 
 
 def denominator_of(expr: sp.Expr) -> sp.Expr | None:

@@ -9,12 +9,12 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.cleared import cleared
 from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.explain.bodies_said import BodiesSaid
 from lagrangian.check.explain.changes.pool import pool_of
 from lagrangian.check.explain.combined_rows import (
     as_written,
-    cleared,
     denominator_of,
     difference,
     term_to_blame,
