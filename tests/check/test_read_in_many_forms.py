@@ -121,3 +121,17 @@ def test_sine_and_cosine_at_once_in_julia() -> None:
 end"""
     assert verdict(program, rod())
     assert not verdict(program.replace("2m*r*v", "m*r*v"), rod())
+
+
+def test_a_side_over_lines_with_signs_in_front_goes_on_to_its_equals_sign() -> None:
+    answer = "m x''\n+ b x'\n- F\n= -k x"
+    assert verdict(answer)
+    found = mass().check(answer.replace("+ b", "- b"))
+    assert [f.line.number for f in found.findings] == [1]
+    assert not verdict(answer.replace("- F", "+ F"))
+    assert verdict("m x'' + b x' + k x - F\n\n- F + m x'' + b x' + k x"), "two expressions, each of them zero"
+
+
+def test_the_numbers_of_two_steps_are_no_factor() -> None:
+    assert verdict("5./6. m x'' + b x' + k x = F")
+    assert not verdict("5./6. m x'' - b x' + k x = F")

@@ -43,6 +43,8 @@ _COMBINED = re.compile(
     r"(?=\s+(?:=+>|[^\s*/^=+]))"
 )
 """Which equations were added: II-III) …"""
+_STEPS = re.compile(rf"\s*+\d{{1,2}}[.)]\s?(?:[/&+,–-]|and|und)\s?\d{{1,2}}[.):]{{1,2}}{_NEXT}")
+"""The numbers of two steps: 5./6. …"""
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+]))")
 """A name with a bracket that nothing opens: x), θ)."""
 _LEFT = re.compile(r"\s*+:(?=\s)")
@@ -231,6 +233,7 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             _SPOKEN,
             _CALLED,
             _STEP_NUMBER,
+            _STEPS,
             _OPEN,
             _LABEL,
         ):

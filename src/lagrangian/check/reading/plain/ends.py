@@ -48,3 +48,21 @@ def defines_behind(text: str, first: int, stop: tuple[int, int]) -> bool:
         return False
     words = islice(_LONG_WORD.finditer(text, max(first, stop[0] - NEAR), stop[0]), FEWEST_WORDS)
     return sum(1 for _ in words) == FEWEST_WORDS
+
+
+MOST = 60
+"""The most sides over several lines that are looked at."""
+_SIDE_OF_LINES = re.compile(
+    r"^[ \t]*+[^\s=+−–-][^\n=]*+\n(?:[ \t]*+[-+−–][ \t][^\n=]*+\n){1,12}(?=[ \t]*+=(?![=>]))", re.MULTILINE
+)
+"""A side over several lines, each with a sign in front, and = in front of the other side."""
+
+
+def within_sums(text: str) -> set[int]:
+    """Where lines begin that only add to a side: each begins with a sign, below one without, and = stands in front of
+    the line behind them."""
+    return {
+        m.start() + line.start()
+        for m in islice(_SIDE_OF_LINES.finditer(text), MOST)
+        for line in re.finditer(r"^(?=[ \t]*[-+−–])", m.group(), re.MULTILINE)
+    }

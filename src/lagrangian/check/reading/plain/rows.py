@@ -27,6 +27,7 @@ from lagrangian.check.reading.plain.ends import (
     incomplete,
     missing_brackets,
     open_brackets,
+    within_sums,
 )
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
@@ -138,13 +139,13 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     text = "\n".join(
         opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
     )
-    rows, offset = list[AnswerRow](), 0
+    rows, offset, within = list[AnswerRow](), 0, within_sums(text)
     open_row: AnswerRow | None = None
     for line in re.split(r"(?<=\n)", text):
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
         if not bare.strip():
             open_row = open_row if line.strip() else None  # a line with only a comment ends nothing
-        elif open_row is not None and (_continues(open_row.text, bare) or _GOES_ON.match(bare)):
+        elif open_row is not None and (_continues(open_row.text, bare, offset in within) or _GOES_ON.match(bare)):
             goes_on = _GOES_ON.match(bare)
             bare = blank(bare, *goes_on.span()) if goes_on is not None else bare
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
@@ -305,7 +306,9 @@ def _remark(part: str) -> bool:
     return "=" not in part and any(w.lower() in LINKING for w in words) and not FUNCTIONS & set(words)
 
 
-def _continues(above: str, line: str) -> bool:
+def _continues(above: str, line: str, within: bool) -> bool:
+    if within and "=" not in above:
+        return True
     if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
     if incomplete(above) or _goes_on(above, line) or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line)):
