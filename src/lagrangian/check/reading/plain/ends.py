@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import islice
 
 OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 """The end of a line that must go on."""
 
+MAX_LIST = 60
+"""The most lines of a list of equations in brackets."""
+
+_LISTING = {"{": "}", "[": "]"}
 _CLOSED = {"(": ")", "[": "]"}
 _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 
@@ -66,3 +71,24 @@ def within_sums(text: str) -> set[int]:
         for m in islice(_SIDE_OF_LINES.finditer(text), MOST)
         for line in re.finditer(r"^(?=[ \t]*[-+−–])", m.group(), re.MULTILINE)
     }
+
+
+def whole_lists(text: str) -> Iterator[str]:
+    """The lines of a text; those of one list in brackets, {a == b,↵ c == d} or [a = b,↵ c = d], together."""
+    waiting: list[str] = []
+    opens = closes = ""
+    for line in text.split("\n"):
+        if not waiting and (opens := line.lstrip()[:1]) in _LISTING:
+            closes = _LISTING[opens]
+        if waiting or (opens in _LISTING and line.count(opens) > line.count(closes)):
+            waiting.append(line)
+        whole = "\n".join(waiting)
+        if not waiting:
+            yield line
+        elif not line.strip() or len(waiting) > MAX_LIST:
+            yield from waiting
+            waiting = []
+        elif whole.count(opens) <= whole.count(closes):
+            yield whole
+            waiting = []
+    yield from waiting

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -27,6 +27,7 @@ from lagrangian.check.reading.plain.ends import (
     incomplete,
     missing_brackets,
     open_brackets,
+    whole_lists,
     within_sums,
 )
 from lagrangian.check.reading.prose.combined import without_combinations
@@ -62,16 +63,12 @@ class AnswerRow:
     text: str
 
 
-MAX_LIST = 60
-"""The most lines of a list of equations in brackets."""
-
 LONGEST_LABEL = 140
 """The most characters of a label in front of an equation, with its number."""
 
 LONGEST_FORMULA = 400
 """The most characters of a formula with a word behind it that says what a name in it means."""
 
-_LISTING = {"{": "}", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
@@ -137,7 +134,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     labelled = partial(is_label, words=words, numbers=numbers)
     text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled, words)
     text = "\n".join(
-        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
+        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in whole_lists(text)
     )
     rows, offset, within = list[AnswerRow](), 0, within_sums(text)
     open_row: AnswerRow | None = None
@@ -180,27 +177,6 @@ def _ended(head: str, line: str, numbers: Numbering) -> str:
     """A line, which goes on from ``head``, without what stands behind it; the comma in a list that goes on is kept."""
     bare, text = behind(line, numbers), line.rstrip()
     return f"{bare[: len(text) - 1]}," if text[-1:] == "," and open_brackets(head + bare) > 0 else bare
-
-
-def _whole_lists(text: str) -> Iterator[str]:
-    """The lines of a text; those of one list in brackets, {a == b,↵ c == d} or [a = b,↵ c = d], together."""
-    waiting: list[str] = []
-    opens = closes = ""
-    for line in text.split("\n"):
-        if not waiting and (opens := line.lstrip()[:1]) in _LISTING:
-            closes = _LISTING[opens]
-        if waiting or (opens in _LISTING and line.count(opens) > line.count(closes)):
-            waiting.append(line)
-        whole = "\n".join(waiting)
-        if not waiting:
-            yield line
-        elif not line.strip() or len(waiting) > MAX_LIST:
-            yield from waiting
-            waiting = []
-        elif whole.count(opens) <= whole.count(closes):
-            yield whole
-            waiting = []
-    yield from waiting
 
 
 def _bare(text: str, words: Words) -> str:
@@ -307,11 +283,14 @@ def _remark(part: str) -> bool:
 
 
 def _continues(above: str, line: str, within: bool) -> bool:
-    if within and "=" not in above:
-        return True
     if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
-    if incomplete(above) or _goes_on(above, line) or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line)):
+    if (
+        (within and "=" not in above)
+        or incomplete(above)
+        or _goes_on(above, line)
+        or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line))
+    ):
         return True
     if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
