@@ -16,6 +16,9 @@ from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.records import dataclass
 
+MAX_SIDES = 200
+"""The most sides of a statement, a = b = c = …"""
+
 
 @dataclass(frozen=True, slots=True)
 class AnswerToken:
@@ -119,6 +122,13 @@ class Parser(ABC):
         found = [self.sum()]
         while self.accept("="):
             found.append(self.sum())
+            if len(found) > MAX_SIDES:
+                raise self.source.error(
+                    f"a statement of more than {MAX_SIDES} sides",
+                    self.next.start,
+                    fix="write one equation per line",
+                    code="E703",
+                )
         if self.next.kind != "end":
             raise self.stopped(False)
         return found

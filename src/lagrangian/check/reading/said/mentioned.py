@@ -67,7 +67,7 @@ def chosen_names(text: str) -> frozenset[str]:
 
 def mentioned_names(text: str, names: Iterable[str]) -> frozenset[str]:
     """Those of some names of which words beside them may say a value, or that they are a force or a sum."""
-    bare = re.sub(r"[\\${}`]", "", text)
+    bare = re.sub(r"[\\${}`]|/\*|\*/", "", text)
     return frozenset(name for name in names if any(map(_says_more, _said(bare, re.sub(r"[\\{}]|^bold ", "", name)))))
 
 

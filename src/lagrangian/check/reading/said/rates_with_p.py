@@ -8,7 +8,8 @@ from collections.abc import Callable
 from lagrangian.check.reading.traced_text import TracedText
 
 _TWICE = re.compile(r"(?:(?<![\w.\\])|(?<=/d)|(?<=/∂))(?P<stem>[^\W\d]\w{0,15}?)pp(?!\w)")
-_DEFINED = r"(?m)^[ \t]*+{}(?:p|pp)[ \t]*:?=(?!=)"
+_DEFINED = r"(?m)^[ \t]*+{0}(?:p|pp)[ \t]*:?=(?!=)|(?<!\w){0}pp?(?!\w)[^\n]{{0,60}}(?:velocit|accelerations?\b)"
+"""A line that says what such a name is, xp = …, or that lists it among velocities or accelerations."""
 MOST = 12
 """The most names with such ends."""
 
