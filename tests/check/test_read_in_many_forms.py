@@ -133,5 +133,26 @@ def test_a_side_over_lines_with_signs_in_front_goes_on_to_its_equals_sign() -> N
 
 
 def test_the_numbers_of_two_steps_are_no_factor() -> None:
-    assert verdict("5./6. m x'' + b x' + k x = F")
-    assert not verdict("5./6. m x'' - b x' + k x = F")
+    steps = "4. T = m x'^2/2\n"
+    assert verdict(f"{steps}5./6. m x'' + b x' + k x = F")
+    assert not verdict(f"{steps}5./6. m x'' - b x' + k x = F")
+    assert not verdict("1./2. m x'' + b x' + k x = F"), "a half, as no step stands above it"
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        "Q_x = 2 F, Q_x = -F - b x'",
+        "spring: Q_x = k x, damper: Q_x = -b x', push: Q_x = F - 2 k x",
+        "damper: Q_x = b x', push: Q_x = F - 2 b x'",
+        "Q_x = F, Q_x = -b x', Q_x = 0",
+        "Q_x = F, Q_x = -b x' - k x\n∂V/∂x = k x",
+    ],
+)
+def test_forces_of_elements_that_only_add_up_by_chance_are_wrong(parts: str) -> None:
+    assert not verdict(f"{parts}\nm x'' + b x' + k x = F")
+
+
+def test_a_derivative_that_is_given_twice_is_judged_twice() -> None:
+    assert not verdict("∂V/∂x = k x\n∂V/∂x = 2 k x\nm x'' + b x' + ∂V/∂x = F")
+    assert not verdict("m x'' + b x' + ∂V/∂x = F\n∂V/∂x = k x\n∂V/∂x = -k x")

@@ -36,8 +36,8 @@ def with_given_slopes(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[
     said: dict[int, AnsweredLine] = {}
     for k, line in enumerate(lines):
         found = _value(truth, line)
-        if found is not None and (found[0].kind, found[0].orders) not in given:
-            given[found[0].kind, found[0].orders] = found[1]
+        if found is not None:
+            given.setdefault((found[0].kind, found[0].orders), found[1])
             said[k] = _compared(truth, line, *found)
     return tuple(said[k] if k in said else _put(truth, line, given) for k, line in enumerate(lines))
 

@@ -43,7 +43,8 @@ _COMBINED = re.compile(
     r"(?=\s+(?:=+>|[^\s*/^=+]))"
 )
 """Which equations were added: II-III) …"""
-_STEPS = re.compile(rf"\s*+\d{{1,2}}[.)]\s?(?:[/&+,–-]|and|und)\s?\d{{1,2}}[.):]{{1,2}}{_NEXT}")
+_STOPPED = re.compile(r"^[ \t]*+(\d{1,2})\.[ \t]", re.MULTILINE)
+_STEPS = re.compile(rf"\s*+(?P<step>\d{{1,2}})[.)]\s?(?:[/&+,–-]|and|und)\s?\d{{1,2}}[.):]{{1,2}}{_NEXT}")
 """The numbers of two steps: 5./6. …"""
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+]))")
 """A name with a bracket that nothing opens: x), θ)."""
@@ -148,6 +149,8 @@ class Numbering:
     """The letters that stand for one coordinate after the other: q = x: …, q = θ: …"""
     counted: bool = False
     """Whether numbers in front of lines, far from these, count the steps: 2  T = …"""
+    steps: frozenset[int] = frozenset()
+    """The numbers with a full stop in front of lines: 4. L = …"""
 
 
 def numbering(text: str, words: Words) -> Numbering:
@@ -176,7 +179,8 @@ def numbering(text: str, words: Words) -> Numbering:
     steps = [_count(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
     counted = len(steps) > FEWEST_STEPS and steps == list(range(steps[0], steps[0] + len(steps)))
     names = frozenset(written if told or beside else ())
-    return Numbering(before, behind, in_order, names, tags, _chosen(text, words), counted)
+    stops = frozenset(int(m[1]) for m in _STOPPED.finditer(text))
+    return Numbering(before, behind, in_order, names, tags, _chosen(text, words), counted, stops)
 
 
 def _count(mark: str) -> int:
@@ -238,6 +242,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             _LABEL,
         ):
             match = form.match(line)
+            if match is not None and form is _STEPS and int(match["step"]) - 1 not in numbers.steps:
+                match = None  # 1./2. m x'^2
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
             called = _COORDINATE.match(line) if form is _NUMBERED else None
