@@ -60,6 +60,11 @@ class Reference:
         return frozenset([time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))])
 
     @cached_property
+    def mass_matrix(self) -> sp.ImmutableMatrix:
+        """The mass matrix with all definitions written out and with values, as `expand` has it."""
+        return sp.ImmutableMatrix(self.derivation.mass_matrix.applyfunc(self.expand))
+
+    @cached_property
     def prescribed(self) -> frozenset[sp.Basic]:
         """The parameters in prescribed motions, as A and Ω in φ = A sin Ωt."""
         moves = {c.symbol for c in self.model.coordinates} | {u.symbol for u in self.model.inputs}

@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.cleared import cleared
+from lagrangian.check.decimals import digits, places
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine
@@ -219,12 +220,8 @@ def _right_lines(truth: Reference) -> tuple[dict[sp.Expr, sp.Expr], ...]:
 
 def last_digit(x: Any, fewest: int) -> float | None:
     """The unit of the last decimal of a number with enough digits; None for another one."""
-    below, power = int(x.q), {2: 0, 5: 0}
-    for prime in power:
-        while below % prime == 0:
-            below, power[prime] = below // prime, power[prime] + 1
-    decimals = max(power.values())
-    if below != 1 or decimals > 30 or len(str(abs(x.p) * 10**decimals // x.q)) < fewest:
+    decimals = places(x)
+    if decimals is None or decimals > 30 or digits(x, decimals) < fewest:
         return None
     return 10.0**-decimals
 
@@ -292,7 +289,7 @@ def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
 
 def _solved(truth: Reference) -> list[sp.Expr]:
     """The right equations solved for the accelerations, if their mass matrix consists of numbers."""
-    M = sp.Matrix(truth.derivation.mass_matrix.applyfunc(truth.expand))
+    M = truth.mass_matrix
     if truth.n > MAX_SOLVED or not all(x.is_number for x in M.flat()) or M.det() == 0:
         return []
     return list((M.inv() * sp.Matrix(truth.rows)).flat())
@@ -303,7 +300,7 @@ def _eliminated(truth: Reference) -> list[sp.Expr]:
     numbers there, in a small system with values."""
     if not truth.values or not 1 < truth.n <= MAX_ELIMINATED:
         return []
-    M = sp.Matrix(truth.derivation.mass_matrix.applyfunc(truth.expand))
+    M = truth.mass_matrix
     found: list[sp.Expr] = []
     for i in range(truth.n):
         others = [j for j in range(truth.n) if j != i]

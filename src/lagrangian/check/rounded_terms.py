@@ -11,13 +11,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import count, islice
+from itertools import islice
 from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.decimals import digits, places
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import right_value
 from lagrangian.check.verdict import AnsweredLine
@@ -38,6 +39,7 @@ LONGEST = 400
 """The most operations of a line whose numbers are sought so."""
 EXACT = 1e-12
 MOST_PLACES = 60
+MOST_ROUNDED = 30
 SLACK = 1 + 1e-9
 _DECIMAL = re.compile(r"(?<![\w.])\d{1,9}\.\d{2,12}(?![\w.])|(?<![\w.])\d{1,9}\.\d{2,12}(?=[^\W\d])")
 
@@ -183,13 +185,8 @@ def _parted(number: sp.Rational, typed: Sequence[sp.Rational]) -> tuple[sp.Ratio
 
 def _digits(x: sp.Rational) -> int:
     """How many digits a decimal has; 0 for a number that is none."""
-    below, power = int(x.q), 0
-    while below % 10 == 0:
-        below, power = below // 10, power + 1
-    twos, fives = (next(k for k in count() if below % p ** (k + 1)) for p in (2, 5))
-    places = power + max(twos, fives)
-    finite = below == 2**twos * 5**fives and places < MOST_PLACES
-    return len(str(abs(int(x.p)) * 10**places // int(x.q)).lstrip("0") or "0") if finite else 0
+    decimals = places(x)
+    return digits(x, decimals) if decimals is not None and decimals < MOST_PLACES else 0
 
 
 def _opened(expr: sp.Expr, typed: Sequence[sp.Rational] = ()) -> tuple[sp.Expr, list[NumberWritten]]:
@@ -222,13 +219,10 @@ def _half_unit(x: Any) -> float:
 
 
 def _unit(x: Any) -> float:
-    below, places = int(x.q), 0
-    while below % 2 == 0 or below % 5 == 0:
-        below = below // 2 if below % 2 == 0 else below // 5
-    while x.q > 1 and below == 1 and (10**places) % x.q and places < 30:
-        places += 1
-    digits = str(abs(x.p) * 10**places // x.q)
-    return 10.0**-places if below == 1 and places < 30 and len(digits) >= FEWEST_DIGITS else 0.0
+    decimals = places(x)
+    if decimals is None or decimals >= MOST_ROUNDED or digits(x, decimals) < FEWEST_DIGITS:
+        return 0.0
+    return 10.0**-decimals
 
 
 def _parts(term: sp.Expr, letters: Mapping[sp.Symbol, NumberWritten]) -> tuple[sp.Expr, sp.Expr]:

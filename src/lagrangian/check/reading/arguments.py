@@ -60,6 +60,12 @@ def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str],
     return frozenset(found)
 
 
+def value_stated(name: str, text: str) -> str | None:
+    """What stands behind the first = of a name in an answer, up to the end of its line; None if there is none."""
+    stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
+    return None if stated is None else stated["value"]
+
+
 def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> Iterator[re.Match[str]]:
     """The quantities with coordinates behind them that the answer states without these: V(θ) where V = m g l cos θ, and
     J_P(θ) where J_P = J + m (a² − 2 a b cos θ)."""
@@ -67,11 +73,10 @@ def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bo
         name, listed = match["name"], [written(_OF_RATE.sub("", x)) for x in match["of"].split(",")]
         if taken(written(name)) or changes(written(name)) or not all(map(changes, listed)):
             continue
-        stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
+        stated = value_stated(name, text)
         energy = name in _ENERGIES
         if stated is not None and (
-            energy
-            or {*map(key, listed)} <= {key(_FUNCTION.sub("", written(x))) for x in _LETTERS_IN.findall(stated["value"])}
+            energy or {*map(key, listed)} <= {key(_FUNCTION.sub("", written(x))) for x in _LETTERS_IN.findall(stated)}
         ):
             yield match
 

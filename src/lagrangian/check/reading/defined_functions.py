@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check.reading.arguments import apart_from, differentiated, written
+from lagrangian.check.reading.arguments import apart_from, differentiated, value_stated, written
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 if TYPE_CHECKING:
@@ -43,8 +43,8 @@ def called_definitions(text: str, names: Names) -> frozenset[str]:
 
 def _is_stated(name: str, of: str, text: str) -> bool:
     """Whether an answer says what a name is, with a letter in its value."""
-    stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
-    return stated is not None and written(of) in {written(x) for x in _WORD.findall(stated["value"])}
+    value = value_stated(name, text)
+    return value is not None and written(of) in {written(x) for x in _WORD.findall(value)}
 
 
 def with_slopes_of_definitions(text: TracedText, names: Names, *, latex: bool) -> TracedText:

@@ -60,6 +60,9 @@ _BEHIND_SENTENCE = re.compile(
 _LABELLED = re.compile(r"^[ \t]*+[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ][^\n]{1,400}$", re.MULTILINE)
 _NEXT_LABEL = re.compile(r"(?<![^\W\d_]{3})\.[ ](?=[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ])")
 """The full stop behind a formula with a label, where another label follows: Cart: ½ M x'^2. Rod: ½ J φ'^2."""
+_FACTOR = re.compile(
+    r"(?:power|energy|function|energie|leistung|funktion|dissipation)[ \t]+(?P<factor>\d)[ \t]*$", re.IGNORECASE
+)
 
 
 def without_markup(text: str) -> str:
@@ -111,11 +114,6 @@ def opened_list(text: str) -> str:
 def _one_a_line(text: str) -> str:
     """The entries of a list on one line; between those that stand on a line each is a semicolon."""
     return _BREAK.sub(lambda m: ";" if m["next"] else " ", text)
-
-
-_FACTOR = re.compile(
-    r"(?:power|energy|function|energie|leistung|funktion|dissipation)[ \t]+(?P<factor>\d)[ \t]*$", re.IGNORECASE
-)
 
 
 def before_factor(text: str, end: int) -> int:

@@ -23,6 +23,12 @@ NEAR = 60
 _LONG_WORD = re.compile(r"[^\W\d_]{3,}")
 NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
 """A name that gets a value."""
+MOST = 60
+"""The most sides over several lines that are looked at."""
+_SIDE_OF_LINES = re.compile(
+    r"^[ \t]*+[^\s=+−–-][^\n=]*+\n(?:[ \t]*+[-+−–][ \t][^\n=]*+\n){1,12}(?=[ \t]*+=(?![=>]))", re.MULTILINE
+)
+"""A side over several lines, each with a sign in front, and = in front of the other side."""
 
 
 def missing_brackets(text: str) -> str:
@@ -53,14 +59,6 @@ def defines_behind(text: str, first: int, stop: tuple[int, int]) -> bool:
         return False
     words = islice(_LONG_WORD.finditer(text, max(first, stop[0] - NEAR), stop[0]), FEWEST_WORDS)
     return sum(1 for _ in words) == FEWEST_WORDS
-
-
-MOST = 60
-"""The most sides over several lines that are looked at."""
-_SIDE_OF_LINES = re.compile(
-    r"^[ \t]*+[^\s=+−–-][^\n=]*+\n(?:[ \t]*+[-+−–][ \t][^\n=]*+\n){1,12}(?=[ \t]*+=(?![=>]))", re.MULTILINE
-)
-"""A side over several lines, each with a sign in front, and = in front of the other side."""
 
 
 def within_sums(text: str) -> set[int]:
