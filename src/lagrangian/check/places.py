@@ -57,6 +57,8 @@ def place_or_approximation(
         return AT_REST
     if (holds := rests(truth, expr, given, said=said)) is not None:
         return AT_REST if holds else None
+    if said and _rests_without_rates(truth, expr, given):
+        return AT_REST
     changing = only_places(truth, expr)
     if not changing:
         return None
@@ -122,6 +124,14 @@ def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, sai
         return None
     holds = at_rest(truth, expr, given)
     return holds if holds or claims or formula else None
+
+
+def _rests_without_rates(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr]) -> bool:
+    """Whether a line that is said to be about rest holds there: S = m g, where S was k δ + b δ′ above."""
+    if any(x.derivative_count > 1 for x in expr.atoms(sp.Derivative)):
+        return False
+    still = cast("sp.Expr", expr.xreplace(still_of(truth)))
+    return still not in (expr, 0) and (balances(truth, still) or rests(truth, still, given, said=True) is True)
 
 
 def _gives_input(truth: Reference, written: str) -> bool:

@@ -42,6 +42,7 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
     parts = list(mistake.what.parts)
     coordinate = mistake.coordinate or _coordinate_in(parts)
     own = [f for f in roots if coordinate is not None and f.coordinate == coordinate]
+    own = roots if not own and len(roots) == 1 and roots[0].coordinate is None else own
     begins = parts[0] if parts and isinstance(parts[0], str) else ""
     if len(own) != 1 or len(parts) < 3 or begins not in (THE_TERM, IN_THE_TERM) or not isinstance(parts[1], sp.Expr):
         return mistake

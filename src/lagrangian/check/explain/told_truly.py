@@ -10,6 +10,8 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+import sympy as sp
+
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
 from lagrangian.check.explain.term_said import REASON
@@ -19,6 +21,8 @@ from lagrangian.page.formula import text
 
 COUNTING = ("element_forgotten", "gravity_forgotten", "translation_forgotten", "rotation_forgotten", "element_twice")
 """Names of mistakes by which one of several equal bodies counts no time or twice."""
+HALF = ("half_forgotten", "spring_half_forgotten")
+"""Names of mistakes by which there is no ½ in an energy."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
@@ -57,6 +61,8 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     if (blamed := _BLAMES.match(said)) is not None:
         own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
         return bool(own) and all(f.status.right for f in own)
+    if mistake.name in HALF and any(_has_its_half(f, d) for f, d in _differing(mistake, verdict)):
+        return True
     if (
         EITHER in (mistake.element or "")
         and mistake.name not in COUNTING
@@ -64,6 +70,17 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     ):
         return True  # which of several equal bodies moves otherwise than the others is written nowhere
     return _is_of_right_quantity(said, verdict) or (is_of_what_is_there(mistake) and _only_lacks(mistake, verdict))
+
+
+def _has_its_half(finding: Finding, difference: TermDifference) -> bool:
+    """Whether a term that is twice what it should be was written with its ½: 2·½ k s²."""
+    letters = letters_in(difference.written)
+    for ways in finding.line.summands:
+        for factors in ways:
+            halved = any(x.is_Rational and x.q % 2 == 0 for x in factors)  # type: ignore[attr-defined]
+            if halved and letters_in(sp.Mul(*factors)) == letters and difference.written == 2 * difference.term:
+                return True
+    return False
 
 
 def _is_of_right_quantity(said: str, verdict: Verdict) -> bool:

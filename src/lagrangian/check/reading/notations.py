@@ -22,6 +22,7 @@ from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
@@ -138,7 +139,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    dotted = with_dots_above(_copied(text), lambda name: key(name) in moving)
+    copied = _copied(text)
+    copied = copied if LATEX.search(text) else with_general_form(copied, len(moving))
+    dotted = with_dots_above(copied, lambda name: key(name) in moving)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     listed = with_tables_written_out(listed)

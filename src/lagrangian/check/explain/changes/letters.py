@@ -21,6 +21,8 @@ from lagrangian.values.dimensions import LENGTH
 
 MOST_ANGLES = 10
 """The largest number of angles that are tried in place of another."""
+RATE = 1.2
+"""What it costs more to leave out a letter without which a whole rate is gone: that rate is what was left out."""
 
 
 class LetterChanges:
@@ -88,7 +90,7 @@ class LetterChanges:
                 effect = self._put(site, atom, number - 1, scaled({((atom, 1),): Fraction(1)}, number))
                 if effect is not None:
                     one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
-                    more = cost + one + site.surcharge
+                    more = cost + one + site.surcharge + (RATE if number == 0 and self._holds_rate(site, atom) else 0.0)
                     yield LocalChange(kind=kind, cost=more, site=site, effect=effect, right=right)
 
     def _ratio(self, site: Site, atom: int, other: sp.Expr) -> sp.Expr | None:
@@ -109,6 +111,12 @@ class LetterChanges:
         the kinetic energy alone."""
         held = [[atom in dict(m) for m in s] for s in (site.T, site.V, *site.Xi.values()) if s]
         return len(held) > 1 and any(all(x) for x in held) and all(all(x) or not any(x) for x in held)
+
+    def _holds_rate(self, site: Site, atom: int) -> bool:
+        """Whether a rate stands in T* only beside a letter: L θ̇ of (L θ̇ + ż)², so that who leaves out L leaves out the
+        rate."""
+        rates = {k for m in site.T for k, _ in m if isinstance(self.ring.atoms[k], sp.Derivative)}
+        return any(all(exponent(m, atom) for m in site.T if exponent(m, k)) for k in rates)
 
     def _powers(self, site: Site, atom: int, exponents: set[int]) -> Iterator[LocalChange]:
         """The square of an atom for the atom, and the other way round."""

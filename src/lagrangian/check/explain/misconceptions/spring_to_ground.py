@@ -22,7 +22,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             continue
         title, k = spring.title[:1].upper() + spring.title[1:], s.expand(spring.k)
         if not any(bounded.diff(extension, q).has(*s.q) for q in held):
-            for q, p in ((q, p) for q in held for p in s.q if p not in held):
+            for q, p in ((q, p) for q in held for p in s.q if p not in held and not _moves_alone(s, q, p)):
                 what = text(f"{title} is stretched by ", q + p, ", as if to the ground.")
                 yield Variant(what=what, V=k * put(extension, {q: q + p}) ** 2 / 2 - V, element=spring)
         if len(held) < 2:
@@ -39,6 +39,14 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 continue
             what = text(f"{title} is stretched by ", _alone(own, q), " alone.")
             yield Variant(what=what, V=k * own**2 / 2 - V, element=spring)
+
+
+def _moves_alone(s: Ingredients, q: sp.Expr, p: sp.Expr) -> bool:
+    """Whether a body moves with one coordinate and not with another: then the first is not counted from the second, and
+    their sum is no motion against the ground that could be meant."""
+    rates = dict(zip(s.q, s.v, strict=True))
+    energies = [s.translation(b) + s.rotation(b) for b in s.bodies]
+    return any(T.has(rates[q]) and not T.has(rates[p]) for T in energies)
 
 
 def _alone(deflection: sp.Expr, q: sp.Expr) -> sp.Expr:

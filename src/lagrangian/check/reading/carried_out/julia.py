@@ -21,9 +21,10 @@ _ARROW = re.compile(rf"(?:\((?P<given>[\w ,]{{1,60}}+)\)|(?P<one>\b{_NAME}))[ \t
 _PARAMETERS = re.compile(
     rf"^[ \t]*+(?:\([ \t]*+;[^()=\n]++\)|@unpack\b[^=\n]++)[ \t]*+=(?!=)[ \t]*+{_NAME}[ \t]*+$", re.MULTILINE
 )
+_VALUE = r"(?:[^\n%()\[\],]|\([^\n%()\[\]]{0,200}\))*+"
 _UNPACKED = re.compile(
     rf"^(?P<indent>[ \t]*+)(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME})++)[ \t]*+=(?!=)"
-    r"(?P<listed>[^\n%()\[\],]*+(?:,[^\n%()\[\],]*+)++)?",
+    rf"(?P<listed>{_VALUE}(?:,{_VALUE})++)?",
     re.MULTILINE,
 )
 _CONDITION = re.compile(

@@ -24,6 +24,9 @@ MOST_PIECES, HIGHEST, WIDEST, WINDOW = 40, 80, 4_000, 60
 LARGEST, TOTAL = 60_000, 1_000_000
 """The most places of a drawing, and of all that are tried in one answer."""
 
+OVERHANG = 3
+"""By how many places a numerator may begin in front of its bar."""
+
 _DRAWN = re.compile("[─━⎛⎡⎧╲]")
 _TALL = re.compile("[⎛⎡⎧╲↪]")
 _HYPHENS = re.compile(r"-{2,}")
@@ -39,6 +42,8 @@ _SAID = re.compile(
 )
 """A line of words, perhaps between strokes, or one that was typed, perhaps a name alone."""
 _BAR = re.compile("[─━]+")
+_SIDE_WITH_BAR = re.compile(r"[ \t]*(?P<side>[^=\n─━]{1,40}?)[ \t]*=[ \t]*(?P<bar>-{4,}|[─━]{4,})[ \t]*")
+"""An equation of which all that stands on the right is a bar."""
 _SIGN = re.compile(r"^[ \t]*+-[ \t]", re.MULTILINE)
 """A program's minus in front of an equation, which is no bullet."""
 _RIGHT_SIDE = re.compile(r"[ \t]{0,3}=[^=]")
@@ -207,6 +212,8 @@ def _one(lines: Sequence[str], space: _Space) -> str | None:
     if len(lines) > 2 and _RIGHT_SIDE.match(lines[-1]) and not any("=" in x for x in lines[:-1]):
         made = _one(lines[:-1], space)
         return f"{made} {lines[-1].strip()}" if made is not None else None
+    if (fraction := _plain_fraction(lines)) is not None:
+        return fraction
     text = "\n".join(lines)
     drawn, hyphens = _DRAWN.search(text) is not None, _HYPHENS.search(text) is not None
     raised, tall = any(map(_RAISED.fullmatch, lines)), _TALL.search(text) is not None
@@ -223,6 +230,19 @@ def _one(lines: Sequence[str], space: _Space) -> str | None:
         if _STATES.search(made) or (drawn and not _is_rule(lines)):
             return made
     return None
+
+
+def _plain_fraction(lines: Sequence[str]) -> str | None:
+    """Three lines, x'' = with a bar between what stands indented above and below it, that need not be as wide as it."""
+    if len(lines) != 3 or (bar := _SIDE_WITH_BAR.fullmatch(lines[1])) is None:
+        return None
+    over, under = lines[0], lines[2]
+    if any(not x.startswith("  ") or "=" in x or not x.strip() or not _balanced(x) for x in (over, under)):
+        return None
+    middle, left = (bar.start("bar") + bar.end("bar")) / 2, bar.start("bar") - OVERHANG
+    if any(not left <= len(x) - len(x.lstrip()) < middle < len(x.rstrip()) for x in (over, under)):
+        return None
+    return f"{bar['side']} = ({over.strip()})/({under.strip()})"
 
 
 def _is_plain_matrix(lines: Sequence[str]) -> bool:
