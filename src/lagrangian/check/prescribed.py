@@ -26,6 +26,7 @@ LOST = ("lost", "lost_in_a_sum", "factor_missing")
 """The names of mistakes that say which factor is missing."""
 FUNCTIONS = "functions of time"
 """The name of a line that equates them."""
+WHY_TWICE = text("Differentiate the velocity term by term: by the product rule each factor that moves has its turn.")
 WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
 
 
@@ -39,6 +40,8 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
         return line
     z: Any = own[0]
     rest = truth.expand(line.expr)
+    if _states_acceleration(truth, line, z) and not zero_everywhere(truth, rest):
+        return replace(line, kind="identity", expr=rest, name=f"{z.func}''")
     others = (*truth.model.coordinates, *truth.model.inputs)
     if rest.has(*(x.symbol for x in others)) or rest.free_symbols - truth.names:
         return line
@@ -50,6 +53,15 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     if number is None:
         return line
     return replace(line, kind="identity", expr=rest / number, name=str(z.func) + order * "'")
+
+
+def _states_acceleration(truth: Reference, line: AnsweredLine, z: Any) -> bool:
+    """Whether an equation only says what the second derivative of a place is, ÿ = −r φ̈ sin φ − r φ̇² cos φ: in
+    accelerations of coordinates, without forces."""
+    left, right = line.sides or (sp.S.Zero, sp.S.Zero)
+    inputs = [u.symbol for u in truth.model.inputs]
+    moving = [c.acceleration for c in truth.model.coordinates]
+    return left == sp.diff(z, (time, 2)) and right.has(*moving) and not (inputs and right.has(*inputs))
 
 
 def _right_in_numbers(truth: Reference, line: AnsweredLine, rate: sp.Expr, number: sp.Expr) -> bool:
@@ -180,6 +192,10 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     what = text(rate, " is ", right, ", not ", right - line.expr, ".")
     if right.has(*(c.symbol for c in truth.model.coordinates)):
         written = right - line.expr
+        if order == 2:
+            return Mistake(
+                "prescribed_motion", what, WHY_TWICE, 5, None, None, text(f"The acceleration of {base} is not right.")
+            )
         own = not order or not any(x.has(sp.sin, sp.cos) for x in (right, written))  # −sin θ comes of the cosine
         if own and _is_negative(right) != _is_negative(written) and right + written != 0:  # a sense of its own
             what = text("But for its sign, ", rate, " is ", -right, ", not ", written, ".")

@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.align import alignments
+from lagrangian.check.explain.at_places import changes, proportional_at_places
 from lagrangian.check.explain.derivative_lines import LONGEST, WHY, product_rule, replaced
 from lagrangian.check.explain.free_bodies import proportional
 from lagrangian.check.explain.own_terms import term_replaced
@@ -102,6 +103,19 @@ def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredL
     return any(same_values(a.rest[0], x, SMALL) for a in alignments(truth, [line.expr], own[None]) for x in wrong)
 
 
+def _has_its_acceleration(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether an equation is wrong by what an acceleration has too much, times something without rates: m r sin φ."""
+    line, wrong = finding.line, [x for x in said if (x.name or "").endswith("''")]
+    if line.kind != "equation" or not wrong:
+        return False
+    own, *extra = CompiledExpressions([line.expr, *(x.expr for x in wrong)]).at(truth.states)
+    if not (np.isfinite(own).all() and all(np.isfinite(x).all() for x in extra)):
+        return False
+    rests = [a.rest[0].reshape(-1, truth.states.motions) for a in alignments(truth, [line.expr], own[None])]
+    blocks = [x.reshape(-1, truth.states.motions) for x in extra]
+    return any(changes(x) and proportional_at_places(r, x) for r in rests for x in blocks)
+
+
 def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
     """Whether D is wrong by a constant times what the square of a rate has too much."""
     line = finding.line
@@ -113,4 +127,4 @@ def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredL
     return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
 
 
-_WAYS = (_holds_with, _has_its_excess, _has_its_square)
+_WAYS = (_holds_with, _has_its_excess, _has_its_acceleration, _has_its_square)

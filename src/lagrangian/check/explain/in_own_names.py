@@ -33,6 +33,8 @@ ALONE = " in one equation alone"
 _OF_DEFINITION = re.compile(r"Line (\d{1,6}) is not right: the ")
 """How words begin that speak of a definition."""
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
+_STATED = re.compile(r"(?:\A|[,;:.({&$]|\w{3}[ \t])[ \t]*\\?([^\W\d]\w{0,63})[ \t&]*\Z")
+"""A name that is all there is on the left, behind words."""
 _MARKS = ("'", "’", "′", "\u0307", "\u0308")
 """What makes a rate of the name that stands before it."""
 _APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
@@ -102,8 +104,9 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
             found.setdefault(name, set()).add(line.expr)
             symbols[name] = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
     anywhere = {name for line in lines for name in names_in(line)}
+    stated = {name for line in wrong if (name := _stated_in(line))}
     for d in truth.model.definitions:
-        if key(d.name) in anywhere:
+        if key(d.name) in anywhere - stated:  # what is right is told of a name that a line gets wrong
             found.setdefault(d.name, set()).add(truth.expand(d.symbol))
             symbols[d.name] = d.symbol
     of_system = {d.name for d in truth.model.definitions}
@@ -113,6 +116,13 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     rated = {name for line in lines for name in _rated_in(line)}
     every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
+
+
+def _stated_in(line: AnsweredLine) -> str:
+    """The key of the name that stands alone on the left of a line; "" if none does."""
+    left, equals, _ = line.text.partition("=")
+    found = _STATED.search(left) if equals else None
+    return "" if found is None else key(found[1])
 
 
 def _in_definitions(lines: Sequence[AnsweredLine]) -> dict[int, frozenset[str]]:

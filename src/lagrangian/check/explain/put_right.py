@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
+from lagrangian.check.explain.at_places import changes, proportional_at_places
 from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.definitions import with_wrong_definitions
@@ -26,6 +27,7 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.reasoned import says_again
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
 from lagrangian.check.explain.shorthands import is_shorthand, right_values
+from lagrangian.check.explain.slip_in_definition import slips_in_definition
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.explain.wrong_balance import balances_agree
 from lagrangian.check.held import held
@@ -33,7 +35,7 @@ from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.reading import Answer
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, keys_of
-from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.errors import ParseError
 from lagrangian.model import time
 from lagrangian.read.letters import key
@@ -42,8 +44,6 @@ MOST_NAMES = 3
 """The most definitions that are left out in turn."""
 MOST_VALUES = 8
 """The most right quantities that are put in the place of one."""
-NEAR = 1e-9
-"""The relative size of what is rounding."""
 HIGHEST = 2
 """The highest derivative of a name that is replaced."""
 
@@ -68,7 +68,37 @@ def with_wrong_name(
             put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
             if _may_mend(truth, open_ones[0].line, put) and (mended := _mended(truth, verdict, judge(put), put)):
                 return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
-    return _with_wrong_shorthand(truth, lines, answer, judge, verdict)
+    found = _with_slip(truth, lines, answer, judge, verdict)
+    return _with_wrong_shorthand(truth, lines, answer, judge, verdict) if found is verdict else found
+
+
+def _with_slip(
+    truth: Reference, lines: Sequence[AnsweredLine], answer: Answer, judge: Judge, verdict: Verdict
+) -> Verdict:
+    """The verdict with a definition in which one term is wrong that the first wrong line cannot have of itself."""
+    first = _open(verdict)[0]
+    for line in list(_in_question(truth, lines, first.line))[:MOST_NAMES] if len(first.differences) == 1 else ():
+        if (again := _without(line, lines, answer)) is None:
+            continue
+        symbol, others = again
+        for own in _as_read(truth, others, first.line, symbol)[:1]:
+            for said in slips_in_definition(truth, line, first.differences, symbol, own):
+                put = _with(others, {symbol: cast("sp.Expr", said.right)})
+                alone = len(_open(verdict)) == 1 and not _is_used_in_right(line, verdict)
+                if mended := [first.line] if alone else _mended(truth, verdict, judge(put), put):
+                    return _blamed(truth, replace(verdict, mistakes=()), said, mended)
+    return verdict
+
+
+def _is_used_in_right(line: AnsweredLine, verdict: Verdict) -> bool:
+    """Whether a right line has the name of a definition, with the value that it has."""
+    return any(f.status.right and key(str(line.name)) in f.line.names for f in verdict.findings)
+
+
+def _as_read(truth: Reference, answer: Answer, first: AnsweredLine, symbol: sp.Expr) -> list[AnsweredLine]:
+    """The line that is wrong as another reading has it, with the symbol of a name in it."""
+    own = [x for x in filled(truth, lines_of(answer)) if x.number == first.number and x.text == first.text]
+    return [x for x in own if (x.kind, x.name) == (first.kind, first.name) and x.expr.has(symbol)]
 
 
 def _with_wrong_shorthand(
@@ -85,8 +115,7 @@ def _with_wrong_shorthand(
         if again is None:
             continue
         symbol, others = again
-        own = [x for x in filled(truth, lines_of(others)) if x.number == first.number and x.text == first.text]
-        own = [x for x in own if (x.kind, x.name) == (first.kind, first.name) and x.expr.has(symbol)]
+        own = _as_read(truth, others, first, symbol)
         for value, same in right_values(truth, line, own[0], symbol) if own else ():
             put = _with(others, {symbol: value})
             if mended := _mended(truth, verdict, judge(put), put):
@@ -252,17 +281,6 @@ def _wrong_alike(truth: Reference, mended: Sequence[AnsweredLine], lines: Sequen
     if not np.isfinite(values).all():
         return [False] * len(lines)
     blocks = values.reshape(len(values), -1, on.states.motions)
-    theirs = [x for x in blocks[: len(known)] if _changes(x)]
+    theirs = [x for x in blocks[: len(known)] if changes(x)]
     own = zip(lines, blocks[len(known) :], strict=True)
-    return [x.kind == "equation" and any(_proportional(y, rest) for y in theirs) for x, rest in own]
-
-
-def _changes(values: Array) -> bool:
-    """Whether values are not the same for all motions at a position."""
-    return bool((np.ptp(values, axis=1) > NEAR * np.abs(values).max(axis=1)).all())
-
-
-def _proportional(a: Array, b: Array) -> bool:
-    """Whether values are multiples of others at every position."""
-    scale = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
-    return bool((np.abs(np.abs((a * b).sum(axis=1)) - scale) <= NEAR * scale).all())
+    return [x.kind == "equation" and any(proportional_at_places(y, rest) for y in theirs) for x, rest in own]

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian.check.explain.certain_first import with_certain_terms
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
 from lagrangian.check.explain.term_said import REASON
@@ -36,6 +37,11 @@ def told_truly(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with mistakes that no line refutes."""
     if verdict.status is not Status.WRONG or verdict.hint == 0 or not verdict.mistakes:
         return verdict
+    return with_certain_terms(_unrefuted(verdict))
+
+
+def _unrefuted(verdict: Verdict) -> Verdict:
+    """The verdict with mistakes that its lines do not refute, each once."""
     mistakes = [_without_refuted_reason(m, verdict) for m in verdict.mistakes]
     refuted = [_is_refuted(m, verdict) for m in mistakes]
     if not any(refuted):
