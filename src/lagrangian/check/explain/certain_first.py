@@ -27,7 +27,21 @@ MOST = 200
 def with_certain_terms(verdict: Verdict) -> Verdict:
     """The verdict, in which a term that another one cancels is too much, and in which the one term that is wrong in an
     answer without energies stands before the motion that may be the reason."""
-    return _with_one_term(_with_cancelled(verdict))
+    return _with_one_term(_with_cancelled(_without_turned_rows(verdict)))
+
+
+def _without_turned_rows(verdict: Verdict) -> Verdict:
+    """The verdict without the terms of an equation that was compared with its negative: ẍ, for which it is solved, is
+    not what has the wrong sign."""
+    findings = tuple(replace(f, differences=()) if _is_turned(f) else f for f in verdict.findings)
+    return replace(verdict, findings=findings) if verdict.mistakes and findings != verdict.findings else verdict
+
+
+def _is_turned(finding: Finding) -> bool:
+    solved = finding.line.sides[0] if finding.line.sides is not None else None
+    if not isinstance(solved, sp.Derivative) or len(finding.differences) < 2:
+        return False
+    return any(d.kind == "sign" and d.written in (solved, -solved) for d in finding.differences)
 
 
 def _with_cancelled(verdict: Verdict) -> Verdict:

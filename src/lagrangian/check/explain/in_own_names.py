@@ -33,8 +33,8 @@ ALONE = " in one equation alone"
 _OF_DEFINITION = re.compile(r"Line (\d{1,6}) is not right: the ")
 """How words begin that speak of a definition."""
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
-_STATED = re.compile(r"(?:\A|[,;:.({&$]|\w{3}[ \t])[ \t]*\\?([^\W\d]\w{0,63})[ \t&]*\Z")
-"""A name that is all there is on the left, behind words."""
+_STATED = re.compile(r"(?:\A|[,;:.({&$]|\w{3}[ \t])[ \t]*\\?([^\W\d]\w{0,63})(['’′]{0,2})[ \t&]*\Z")
+"""A name, or its rate, that is all there is on the left, behind words."""
 _MARKS = ("'", "’", "′", "\u0307", "\u0308")
 """What makes a rate of the name that stands before it."""
 _APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
@@ -119,10 +119,13 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
 
 
 def _stated_in(line: AnsweredLine) -> str:
-    """The key of the name that stands alone on the left of a line; "" if none does."""
-    left, equals, _ = line.text.partition("=")
+    """The key of the name that stands alone on the left of a line, or of which the rate does if the right side is
+    written without it; "" if none does."""
+    left, equals, right = line.text.partition("=")
     found = _STATED.search(left) if equals else None
-    return "" if found is None else key(found[1])
+    if found is None or (found[2] and re.search(rf"(?<![^\W_]){re.escape(found[1])}(?![^\W_])", right)):
+        return ""
+    return key(found[1])
 
 
 def _in_definitions(lines: Sequence[AnsweredLine]) -> dict[int, frozenset[str]]:

@@ -180,6 +180,10 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     rest = row.rest * below
     scale = _scale(truth, row, M, ratio)
     found = in_place(pool, listed, rest, "numerator", row.i, _right(pool, row, M, scale)) if scale is not None else None
+    if found is not None and found.instead is not None and found.term == 0:
+        gone = _values(truth, found.instead[0])
+        left = next((t for t, v in listed if np.abs(v + gone).max() <= SMALL * np.abs(v).max()), None)
+        found = found if left is None else OwnTerm(row.i, 5, left)  # both cancel in the right one
     if found is not None and found.cost <= SURE:
         return found
     for t, v in listed:
@@ -188,6 +192,12 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
         if t != row.expr and number is not None and np.abs(rest - c * v).max() <= SMALL * np.abs(rest).max():
             return OwnTerm(row.i, 5, t, number)
     return found
+
+
+def _values(truth: Reference, expr: sp.Expr) -> Array:
+    """An expression at every state."""
+    values: Array = CompiledExpressions([expr]).at(truth.states)[0]
+    return values
 
 
 def _pieces(expr: sp.Expr) -> Iterator[sp.Expr]:

@@ -44,6 +44,8 @@ LONGEST = 60
 """The largest number of operations of such a definition."""
 OF_RATES = frozenset(["turning", "speed", "component", "along", "rate"])
 """Kinds of what holds rates."""
+OF_MOTION = ("kinetic", "translation", "rotation", "potential")
+"""Kinds of energies, which are nowhere said to be constant."""
 PLACED = ("position", "height")
 """The kinds of quantities that are counted from a place of the answer's own."""
 NEAR = 1e-9
@@ -387,5 +389,7 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
         return bool(moves or rates)
     if q.kind == "acceleration":
         return True
+    if q.kind in OF_MOTION and not moves and not rates:
+        return False  # P = m g is a force
     common = letters_in(said) & letters_in(q.right)
     return q.kind == "Xi" or any(x.is_Symbol for x in common)

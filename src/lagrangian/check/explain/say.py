@@ -32,6 +32,7 @@ class KindWords:
     why: str
 
 
+SIGN = "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}."
 PLURALS = (
     "the terms",
     "the velocity terms",
@@ -170,9 +171,7 @@ KINDS: Mapping[str, KindWords] = {
     "velocity_part_left_out": KindWords(
         "In {site}, {right} is left out.", "Something is left out in {brief}.", VELOCITY
     ),
-    "velocity_part_sign": KindWords(
-        "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", VELOCITY
-    ),
+    "velocity_part_sign": KindWords(*SIGN, VELOCITY),
     "rate_sign": KindWords(
         "In {site}, the sign of {right} against {written} is wrong.",
         "There is a wrong sign in {brief}.",
@@ -185,9 +184,7 @@ KINDS: Mapping[str, KindWords] = {
     ),
     "omega": KindWords("{Site} is {right}, not {written}{apart}", "{Brief} is not right.", OMEGA),
     "turning_part_left_out": KindWords("In {site}, {right} is left out.", "Something is left out in {brief}.", OMEGA),
-    "turning_part_sign": KindWords(
-        "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", OMEGA
-    ),
+    "turning_part_sign": KindWords(*SIGN, OMEGA),
     "turning_function": KindWords(
         "In {site}, {written} stands in place of {right}.", "There is a wrong sine or cosine in {brief}.", ANGLES
     ),
@@ -241,6 +238,8 @@ KINDS: Mapping[str, KindWords] = {
     "damper_rate": KindWords("{Site} is taken as {written}; it is {right}.", "{Brief} is not right.", DAMPER),
 }
 """The kinds of changes whose words do not depend on a multiple."""
+UNSIGNED = ("piece_sign", "velocity_part_sign", "turning_part_sign")
+"""Those that say of a part that its sign is wrong."""
 
 
 def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr | None = None) -> Mistake:
@@ -365,6 +364,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     exprs = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
     if change.kind in ("arm", "omega") and len(exprs) > 1 and all(x.could_extract_minus_sign() for x in exprs):
         values["right"], values["written"] = ((-x,) for x in exprs)  # whichever side it stands on, or sense it has
+    if change.kind in UNSIGNED and isinstance(change.right, sp.Expr) and change.right.could_extract_minus_sign():
+        values["right"] = (_short(-change.right),)  # which sign it has depends on the axis
     values["apart"] = (rates_apart(*exprs) if len(exprs) > 1 else ()) or (".",)
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):
@@ -373,8 +374,7 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
 
 
 def _short(value: sp.Expr) -> sp.Expr:
-    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ), R + r sin θ for √((R + r sin θ)²); h/cos²θ for
-    h + h tan²θ."""
+    """A length with its root drawn: R + r sin θ for √((R + r sin θ)²); h/cos²θ for h + h tan²θ."""
     if value.has(sp.tan):
         value = put_together(value)
     roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]

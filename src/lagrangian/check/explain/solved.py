@@ -14,12 +14,16 @@ import sympy as sp
 
 from lagrangian.check.align import CONSTANT, LARGEST, solved
 from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.denominator_terms import wrong_term_below
+from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.explain.search import EXOTIC, Explanation, Vectors, simple_number, singles
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 
+_DENOMINATOR = " is right; the denominator is not."
+WHY_BELOW = text("The denominator is what multiplies the acceleration once the others are eliminated: do it once more.")
 WHY = text("With M ξ̈ = h, ξ̈ = adj(M) h / det M: every acceleration has the same denominator, det M.")
 
 
@@ -89,7 +93,16 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
     name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None
     symbols = [x for i in wrong for x in (cast("sp.Expr", accelerations[i]), ", ")][:-1]
     brief = text("A denominator of a solved equation is not right.")
-    return Mistake("denominator", _words(symbols, ratios[wrong[0]], common=common), WHY, 5, None, name, brief)
+    words = _words(symbols, ratios[wrong[0]], common=common)
+    if len(wrong) == 1 and words.parts[-1] == _DENOMINATOR:
+        with np.errstate(all="ignore"):
+            pair = wrong_term_below(truth, exprs[own.index(wrong[0])], wrong[0], ratios[wrong[0]])
+        if pair is not None and pair[0] != pair[1]:
+            _, said = term_replaced(*pair)
+            first, *more = said.parts
+            words = text(*words.parts[:-1], f"{_DENOMINATOR} In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
+            return Mistake("denominator_term", words, WHY_BELOW, 5, None, name, brief)
+    return Mistake("denominator", words, WHY, 5, None, name, brief)
 
 
 def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> Text:
@@ -99,4 +112,4 @@ def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> T
         return text("What is solved for ", *symbols, " is ", times, " times what it should be.")
     if common:
         return text("The numerators are right; the common denominator, the determinant of the mass matrix, is not.")
-    return text("The numerator of ", *symbols, " is right; the denominator is not.")
+    return text("The numerator of ", *symbols, _DENOMINATOR)

@@ -20,8 +20,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, a D of positions
     if any line does, and a D of constants alone beside no T or L; and those that an equation with accelerations uses
     alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value,
-    P = F x' - b theta'^2, and K and R are forces if there are none, K = k (x - u), and an equation of motion uses them,
-    or neither a square nor an inertia is in them.
+    P = F x' - b theta'^2, and a force if constants alone do, P = m g; K and R are forces if there are none,
+    K = k (x - u), and an equation of motion uses them, or neither a square nor an inertia is in them.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -36,7 +36,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             continue
         listed = [str(x) for side in sides[1:] for x, _ in names_in(side)]
         own = str(named[0]) == "P" and not names.scope.meanings("P")[0]
-        if own and (moving[k] or any(key(x) in rates for x in listed)):
+        constants = {p.name for p in model.parameters}
+        fixed = bool(listed) and all(constants.issuperset(names.scope.meanings(x)[0] or [x]) for x in listed)
+        if own and (moving[k] or fixed or any(key(x) in rates for x in listed)):
             found.add("P")
         if moving[k]:
             continue

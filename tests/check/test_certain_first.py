@@ -1,0 +1,183 @@
+"""What is certain is said before what may be a reason, and nothing is said that what is written refutes.
+
+Oracle: the answers, whose mistakes are made here one by one beside right ones.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+from lagrangian.check.verb import CheckedAnswer, check_answer
+from lagrangian.derive import Derived
+from lagrangian.read import loads
+from lagrangian.structured.choose import derive_in_form
+
+CART = lg.example("cart-pole").derive()
+BAR = """
+name = "bar"
+[coordinates]
+phi = "crank, from the top"
+[parameters]
+J = "0.7 kg*m^2"
+m = "0.7 kg"
+r = "0.7 m"
+k = "0.7 N/m"
+g = "9.81 m/s^2"
+[inputs]
+tau = "N*m"
+[define]
+y = "r*cos(phi)"
+[points]
+N = ["0", "y"]
+[[particle]]
+name = "bar"
+mass = "m"
+at = "N"
+[[kinetic]]
+name = "wheel"
+value = "J*phi'^2/2"
+[[gravity]]
+direction = [0, -1]
+g = "g"
+[[torque]]
+name = "motor"
+value = "tau"
+on = "phi"
+"""
+"""A bar that a crank moves up and down by a yoke."""
+SLIDE = """
+name = "slide"
+[coordinates]
+x = { description = "box", unit = "m" }
+h = { description = "handle, from the box", unit = "m" }
+[parameters]
+M = "0.7 kg"
+m = "0.7 kg"
+K = "0.7 N/m"
+k = "0.7 N/m"
+[inputs]
+F = "N"
+[[particle]]
+name = "box"
+mass = "M"
+at = ["x", "0"]
+[[particle]]
+name = "handle"
+mass = "m"
+at = ["x + h", "0"]
+[[spring]]
+name = "bungee"
+k = "K"
+deflection = "x"
+[[spring]]
+name = "cord"
+k = "k"
+deflection = "h"
+[[force]]
+name = "pull"
+value = "F"
+deflection = "h"
+"""
+"""A box on a bungee, and a handle that moves along with it."""
+
+
+@cache
+def derived(text: str) -> Derived:
+    return derive_in_form(loads(text).model())
+
+
+def told(answer: str, model: str) -> CheckedAnswer:
+    return check_answer(derived(model), answer)
+
+
+def first(answer: str, model: str) -> str:
+    """The first mistake that is told of a wrong answer."""
+    found = told(answer, model)
+    assert not found.right
+    return str(found.mistakes[0].what)
+
+
+BAR_ROW = "(J + m r^2 sin(phi)^2) phi'' + m r^2 sin(phi) cos(phi) phi'^2 - m g r sin(phi) = tau"
+
+
+def test_a_term_that_is_written_and_taken_away_again_is_too_much_and_not_missing() -> None:
+    right = "T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 x' h' + h'^2)"
+    assert told(right, SLIDE).status.name != "WRONG"
+    said = first(f"{right} - 1/2 m h'^2", SLIDE)
+    assert "does not belong there" in said and "missing" not in said
+    assert "missing" in first("T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 x' h')", SLIDE)
+
+
+def test_no_half_is_missing_that_is_written() -> None:
+    V = "T = 1/2 M x'^2 + 1/2 m (x' + h')^2\nV = {} + 1/2 K x^2"
+    assert told(V.format("1/2 k h^2"), SLIDE).status.name != "WRONG"
+    assert "½" not in first(V.format("2 * 1/2 k h^2"), SLIDE)
+    assert first(V.format("k h^2"), SLIDE).startswith("The ½ in the energy of spring 'cord' is missing")
+
+
+def test_a_spring_at_the_ground_is_not_said_to_be_taken_for_one() -> None:
+    said = first("T = 1/2 M x'^2 + 1/2 m (x' + h')^2\nV = 1/2 k h^2 + 1/2 K (x + h)^2", SLIDE)
+    assert "bungee" in said and "ground" not in said
+
+
+def test_a_wrong_second_derivative_is_told_and_what_follows_is_marked() -> None:
+    lines = (
+        "y = r cos(phi)\ny'' = -r sin(phi) phi'' {} r cos(phi) phi'^2\nm y'' = N - m g\nJ phi'' = tau + N r sin(phi)\n"
+    )
+    assert told(lines.format("-") + BAR_ROW, BAR).right
+    wrong = BAR_ROW.replace("phi'' + m", "phi'' - m")
+    found = told(lines.format("+") + wrong, BAR)
+    assert found.first_wrong is not None and found.first_wrong.line.number == 2
+    assert [f.line.number for f in found.findings if f.follows] == [5]
+    assert str(found.mistakes[0].what).startswith("y'' is ")
+
+
+def test_a_slip_in_the_definition_of_an_acceleration_is_told_there() -> None:
+    lines = "a = -r sin(phi) phi''{}\nm a = N - m g\nN = m a + m g\nJ phi'' = tau + N r sin(phi)\n"
+    assert told(lines.format(" - r cos(phi) phi'^2") + BAR_ROW, BAR).right
+    wrong = BAR_ROW.replace(" + m r^2 sin(phi) cos(phi) phi'^2", "")
+    found = told(lines.format("") + wrong, BAR)
+    assert found.first_wrong is not None and found.first_wrong.line.number == 1
+
+
+def test_a_name_of_the_system_that_is_stated_wrongly_is_told_by_what_it_is() -> None:
+    said = first("y = 2 r cos(phi)\n" + BAR_ROW, BAR)
+    assert said == "y is r*cos(phi), not 2*r*cos(phi)."
+
+
+@pytest.mark.parametrize(
+    ("below", "said"),
+    [
+        ("J + m l^2 - m^2 l^2 sin(theta)^2/(M + m)", "cos(theta)^2"),
+        ("J - m^2 l^2 cos(theta)^2/(M + m)", "is missing"),
+    ],
+)
+def test_the_term_of_a_denominator_that_is_wrong_is_told(below: str, said: str) -> None:
+    """θ̈ of a cart-pole without ẍ: the right denominator is J + m l² − m² l² cos²θ/(M + m)."""
+    numerator = "(m g l sin(theta) - m l cos(theta) (F - b x' + m l theta'^2 sin(theta))/(M + m))"
+    row = "x'' = (F - b x' + m l theta'^2 sin(theta) - m l theta'' cos(theta))/(M + m)"
+    right = "J + m l^2 - m^2 l^2 cos(theta)^2/(M + m)"
+    assert CART.check(f"{row}\ntheta'' = {numerator}/({right})").right
+    found = CART.check(f"{row}\ntheta'' = {numerator}/({below})")
+    words = str(found.mistakes[0].what)
+    assert not found.right and "denominator" in words and said in words, words
+
+
+def test_a_constant_p_is_a_force() -> None:
+    """P = m g is no potential energy, and not the kinetic energy of what hangs there."""
+    found = CART.check(
+        "the weight pulls with P = m g\n(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F\n"
+        "m l x'' cos(theta) + J theta'' - m g l sin(theta) = 0"
+    )
+    assert not found.right and found.first_wrong is not None and found.first_wrong.line.number == 3
+    assert not any(f.line.kind == "V" for f in found.findings)
+
+
+def test_an_equation_that_was_compared_with_its_negative_has_no_list_of_terms() -> None:
+    """x'' = (−S − c x')/M for (S − c x')/M: S has the wrong sign, and neither x'' nor all the others."""
+    found = told("h'' = (F - k h)/m - x''\nx'' = (-K x - k h + F)/M", SLIDE)
+    assert not found.right
+    assert not any(d.kind == "sign" and d.written.is_Derivative for f in found.findings for d in f.differences)
