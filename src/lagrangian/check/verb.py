@@ -21,6 +21,7 @@ from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
+from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
@@ -213,7 +214,10 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked, answer.mentioned)
-    verdict = _apart(derivation, answer, fitting(told_truly(_with_origins(derivation, answer, verdict, hint))))
+    verdict = with_other_components(
+        truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
+    )
+    verdict = _apart(derivation, answer, fitting(told_truly(verdict)))
     return _told(verdict, answer, decides.notes)
 
 
