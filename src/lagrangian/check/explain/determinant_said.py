@@ -17,7 +17,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
 
-NAME = "denominator"
+NAME, TERM_NAME = "denominator", "denominator_term"
 WHY = text("The determinant of a symmetric matrix with the rows (A, B) and (B, I) is A I − B².")
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
@@ -26,7 +26,7 @@ NEAR = 1e-9
 def with_determinant(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on accelerations whose denominator alone is wrong, with the definition of this denominator as what is
     wrong, if there is one, and the accelerations as what follows."""
-    if not any(m.name == NAME for m in verdict.mistakes) or len(verdict.mistakes) != 1:
+    if not verdict.mistakes or any(m.name not in (NAME, TERM_NAME) for m in verdict.mistakes):
         return verdict
     rows = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
     if truth.n < 2 or not all(f.line.kind == "equation" for f in rows):

@@ -8,6 +8,7 @@ missing. Then another mistake that explains as much is told or, if there is none
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -25,6 +26,8 @@ COUNTING = ("element_forgotten", "gravity_forgotten", "translation_forgotten", "
 HALF = ("half_forgotten", "spring_half_forgotten")
 """Names of mistakes by which there is no ½ in an energy."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
+NOT = ", not "
+"""What stands between what is right and what is written."""
 EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
 _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
@@ -45,7 +48,7 @@ def _unrefuted(verdict: Verdict) -> Verdict:
     mistakes = [_without_refuted_reason(m, verdict) for m in verdict.mistakes]
     refuted = [_is_refuted(m, verdict) for m in mistakes]
     if not any(refuted):
-        return replace(verdict, mistakes=tuple(mistakes))
+        return replace(verdict, mistakes=tuple(_once(mistakes, verdict)))
     either = set((mistakes[0].element or "").split(EITHER)) if EITHER in (mistakes[0].element or "") else set[str]()
     others = [m for m in verdict.alternatives if not _is_refuted(m, verdict) and m.element not in either]
     kept: list[Mistake] = []
@@ -56,9 +59,29 @@ def _unrefuted(verdict: Verdict) -> Verdict:
             kept.append(others[0])
         else:
             kept += _terms_of(m, verdict)
-    told = {str(m.what): m for m in kept}
+    told = {str(m.what): m for m in _once(kept, verdict)}
     left = tuple(m for m in others if str(m.what) not in told)
     return replace(verdict, mistakes=tuple(told.values()), alternatives=left)
+
+
+def _once(mistakes: Sequence[Mistake], verdict: Verdict) -> Iterator[Mistake]:
+    """The mistakes without those that say again what is not what it should be, ẏ is −r φ̇ sin φ, not −r φ̇ cos φ, and
+    without those in an equation that only follows from wrong lines."""
+    told = list[tuple[sp.Expr, ...]]()
+    for k, m in enumerate(mistakes):
+        pair = tuple(x for x in m.what.parts if isinstance(x, sp.Expr))[-2:] if NOT in str(m.what) else ()
+        if k and (pair in told or _only_follows(m, verdict)):
+            continue
+        told += [pair] if len(pair) == 2 else []
+        yield m
+
+
+def _only_follows(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether the equation in which a term is said to be wrong needs no correction of its own."""
+    if mistake.coordinate is None or not str(mistake.what).startswith("The term "):
+        return False
+    wrong = [f for f in verdict.findings if f.coordinate == mistake.coordinate and f.status is Status.WRONG]
+    return bool(wrong) and all(f.follows for f in wrong)
 
 
 def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
