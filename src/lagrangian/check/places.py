@@ -33,9 +33,10 @@ STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) +
 
 def only_places(truth: Reference, expr: sp.Expr) -> set[AppliedUndef]:
     """The coordinates of an expression that holds no rate and no other name that moves; nothing otherwise."""
-    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
-    places = {c.symbol for c in truth.model.coordinates}
-    return changing if changing <= places and not expr.has(sp.Derivative) else set()
+    if expr.has(sp.Derivative):
+        return set()
+    changing = {x for x in bounded.atoms(expr, AppliedUndef) if x.args}
+    return changing if changing <= {c.symbol for c in truth.model.coordinates} else set()
 
 
 def place_or_approximation(
