@@ -275,9 +275,15 @@ def _sums(expr: sp.Expr) -> dict[sp.Expr, sp.Expr]:
     """The factors of what moves in an expanded expression."""
     sums: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(expr):
-        number, moving = term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
+        number, moving = _parted(term)
         sums[moving] = sums.get(moving, sp.S.Zero) + number
     return sums
+
+
+@lru_cache(maxsize=5_000)
+def _parted(term: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """The number of a term and what moves, kept: lines have many terms in common."""
+    return term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
 
 
 def _is_finite(x: sp.Expr) -> bool:
