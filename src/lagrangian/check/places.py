@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -176,13 +177,15 @@ def _approximates(expr: sp.Expr, changing: Iterable[AppliedUndef]) -> bool:
     return True
 
 
-def prescribed_angles(truth: Reference) -> set[Any]:
+@lru_cache(maxsize=32)
+def prescribed_angles(truth: Reference) -> frozenset[Any]:
     """The sines and cosines of prescribed angles that swing: sin(A sin Ωt)."""
     found = {cast("Any", f) for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
-    return {f for f in found if not f.atoms(AppliedUndef) and f.has(time) and f.args[0].atoms(sp.sin, sp.cos)}
+    return frozenset(f for f in found if not f.atoms(AppliedUndef) and f.has(time) and f.args[0].atoms(sp.sin, sp.cos))
 
 
-def amplitudes(truth: Reference) -> set[sp.Symbol]:
+@lru_cache(maxsize=32)
+def amplitudes(truth: Reference) -> frozenset[sp.Symbol]:
     """The parameters to which prescribed angles are proportional, outside the functions in these: A of A sin Ωt."""
     sizes: set[sp.Symbol] = set()
     for angle in {cast("sp.Expr", f.args[0]) for f in prescribed_angles(truth)}:
@@ -190,7 +193,7 @@ def amplitudes(truth: Reference) -> set[sp.Symbol]:
         found = {p.symbol for p in truth.model.parameters} & bare.free_symbols
         whole = sp.Add(*[x * angle.diff(x) for x in found])
         sizes |= found if bounded.expand(angle - whole) == 0 else set()
-    return sizes
+    return frozenset(sizes)
 
 
 def _is_small(truth: Reference, expr: sp.Expr) -> bool:
