@@ -134,7 +134,7 @@ def _gives_input(truth: Reference, written: str) -> bool:
 
 def gives_input(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line only gives an input a value: F = 0."""
-    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
+    changing = {x for x in bounded.atoms(expr, AppliedUndef) if x.args}
     if len(changing) != 1 or not changing <= {u.symbol for u in truth.model.inputs} or expr.has(sp.Derivative):
         return False
     (given,) = changing
