@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import fields
+from functools import cache
 from typing import Any, Generic, TypeVar
 
 from lagrangian.errors import NoSuchEntry
@@ -78,9 +79,9 @@ class Brief:
     """
 
     def __post_init__(self) -> None:
-        for f in fields(self):  # type: ignore[arg-type]
-            if f.repr and type(value := getattr(self, f.name)) is dict:
-                object.__setattr__(self, f.name, Entries(value, f.name))
+        for name in _shown(type(self)):
+            if type(value := getattr(self, name)) is dict:
+                object.__setattr__(self, name, Entries(value, name))
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -91,6 +92,12 @@ class Brief:
         values = [(f, getattr(self, f.name)) for f in fields(self) if f.repr]  # type: ignore[arg-type]
         shown = [f"{f.name}={cut(repr(x), FIELD)}" for f, x in values if x is not None and x is not f.default]
         return cut(f"{type(self).__name__}({', '.join(shown)})")
+
+
+@cache
+def _shown(cls: type) -> tuple[str, ...]:
+    """The fields of a data class that its repr shows; every object that is made asks for them."""
+    return tuple(f.name for f in fields(cls) if f.repr)
 
 
 class Worded(Brief):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 
 import sympy as sp
 
@@ -73,6 +73,8 @@ from lagrangian.derive import Derived
 from lagrangian.page.formula import text
 
 _log = logging.getLogger(__name__)
+MOST_PUT = 16
+"""The most answers with values put in whose verdicts are kept."""
 
 
 @bounded.answered(
@@ -227,11 +229,28 @@ def _alone(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: 
 def _put(
     truth: Reference, lines: Sequence[AnsweredLine], values: Mapping[sp.Symbol, sp.Expr], hint: int, *, explain: bool
 ) -> Verdict:
-    """The verdict on an answer with values substituted for the parameters that it does not name."""
-    valued = truth.with_values(values)
+    """The verdict on an answer with values substituted for the parameters that it does not name; one without
+    explanations is kept, as an answer is judged again to explain it."""
+    found = _putting if explain else _kept_putting
+    beyond = tuple((x.sides, x.summands, x.words) for x in lines)
+    return found(truth, tuple(lines), beyond, tuple(values.items()), hint, explain)
+
+
+def _putting(
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    beyond: object,  # in what else lines differ that are equal
+    put: tuple[tuple[sp.Symbol, sp.Expr], ...],
+    hint: int,
+    explain: bool,
+) -> Verdict:
+    valued, values = truth.with_values(dict(put)), dict(put)
     lines, told = with_prescribed_unrounded(valued, lines)
     read = _with_values(values, spelled(valued, _filled(valued, lines), numbers=False))
     return _read(valued, replace(read, notes=(*read.notes, *told)), hint, explain=explain)
+
+
+_kept_putting = lru_cache(maxsize=MOST_PUT)(_putting)
 
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:

@@ -24,6 +24,7 @@ LONGEST = 160
 """The most characters in front of a statement that are read as words about it."""
 _ABOUT = re.compile(r"[ \t,]*+[(%#]?[ \t]*+(?P<about>(?:about|around|um|bezüglich)[ ][^=:,;.()\n]{1,60})")
 _SENTENCE = re.compile(r"[.;|][ \t]")
+_RATES = {k: sp.Derivative(ENERGIES[k], time) for k in ("T", "V")}
 
 
 def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
@@ -111,7 +112,8 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
     out: list[AnsweredLine] = []
     for written in with_own_definitions(truth, lines):
         line = with_rates_of_energies(truth, as_prescribed(truth, written))
-        kind, expr = line.kind, truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
+        plain = forces.keys().isdisjoint(bounded.letters(line.expr))
+        kind, expr = line.kind, truth.expand(line.expr if plain else cast("sp.Expr", line.expr.xreplace(forces)))
         if _is_other_lagrangian(line):
             kind, expr = "L", cast("sp.Expr", expr.xreplace(energies))
         out.append(replace(line, kind=kind, expr=expr))
@@ -120,10 +122,10 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
 
 def with_rates_of_energies(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     """A line with the rates of energies that the answer does not state, dV/dt = …, as those of the system's."""
-    rates = {sp.Derivative(ENERGIES[k], time): bounded.diff(x, time) for k, x in (("T", truth.T), ("V", truth.V))}
-    held = [x for x in rates if line.expr.has(x)]
-    if not held:
+    if not any(line.expr.has(x) for x in _RATES.values()):
         return line
+    rates = {_RATES[k]: bounded.diff(x, time) for k, x in (("T", truth.T), ("V", truth.V))}
+    held = [x for x in rates if line.expr.has(x)]
     accelerations = [c.acceleration for c in truth.model.coordinates]
     alone = [x for x in held if line.sides is not None and x in line.sides]
     own = len(alone) == len(held) == 1 and line.sides is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -33,9 +34,10 @@ STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) +
 
 def only_places(truth: Reference, expr: sp.Expr) -> set[AppliedUndef]:
     """The coordinates of an expression that holds no rate and no other name that moves; nothing otherwise."""
-    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
-    places = {c.symbol for c in truth.model.coordinates}
-    return changing if changing <= places and not expr.has(sp.Derivative) else set()
+    if expr.has(sp.Derivative):
+        return set()
+    changing = {x for x in bounded.atoms(expr, AppliedUndef) if x.args}
+    return changing if changing <= {c.symbol for c in truth.model.coordinates} else set()
 
 
 def place_or_approximation(
@@ -142,7 +144,7 @@ def _gives_input(truth: Reference, written: str) -> bool:
 
 def gives_input(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line only gives an input a value: F = 0."""
-    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
+    changing = {x for x in bounded.atoms(expr, AppliedUndef) if x.args}
     if len(changing) != 1 or not changing <= {u.symbol for u in truth.model.inputs} or expr.has(sp.Derivative):
         return False
     (given,) = changing
@@ -185,13 +187,15 @@ def _approximates(expr: sp.Expr, changing: Iterable[AppliedUndef]) -> bool:
     return True
 
 
-def prescribed_angles(truth: Reference) -> set[Any]:
+@lru_cache(maxsize=32)
+def prescribed_angles(truth: Reference) -> frozenset[Any]:
     """The sines and cosines of prescribed angles that swing: sin(A sin Ωt)."""
     found = {cast("Any", f) for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
-    return {f for f in found if not f.atoms(AppliedUndef) and f.has(time) and f.args[0].atoms(sp.sin, sp.cos)}
+    return frozenset(f for f in found if not f.atoms(AppliedUndef) and f.has(time) and f.args[0].atoms(sp.sin, sp.cos))
 
 
-def amplitudes(truth: Reference) -> set[sp.Symbol]:
+@lru_cache(maxsize=32)
+def amplitudes(truth: Reference) -> frozenset[sp.Symbol]:
     """The parameters to which prescribed angles are proportional, outside the functions in these: A of A sin Ωt."""
     sizes: set[sp.Symbol] = set()
     for angle in {cast("sp.Expr", f.args[0]) for f in prescribed_angles(truth)}:
@@ -199,7 +203,7 @@ def amplitudes(truth: Reference) -> set[sp.Symbol]:
         found = {p.symbol for p in truth.model.parameters} & bare.free_symbols
         whole = sp.Add(*[x * angle.diff(x) for x in found])
         sizes |= found if bounded.expand(angle - whole) == 0 else set()
-    return sizes
+    return frozenset(sizes)
 
 
 def _is_small(truth: Reference, expr: sp.Expr) -> bool:

@@ -166,7 +166,7 @@ def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:
 
 def _equates_functions(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a line wrongly equates functions of time alone, d²/dt² (a sin Ωt) = a Ω² cos Ωt; t = 0 is an instant."""
-    if line.kind != "equation" or not line.expr.has(time) or line.expr.atoms(AppliedUndef):
+    if line.kind != "equation" or not line.expr.has(time) or bounded.atoms(line.expr, AppliedUndef):
         return False
     if line.expr.diff(time) in (1, -1):
         return False

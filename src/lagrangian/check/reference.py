@@ -203,8 +203,9 @@ class Reference:
 def terms(expr: sp.Basic) -> int:
     """An upper bound on the number of terms of an expanded expression."""
     known: dict[sp.Basic, int] = {}
-    for e in sp.postorder_traversal(expr):
-        if e in known:
+    for e in bounded.each(expr):
+        if not e.args or isinstance(e, (AppliedUndef, sp.Derivative)):
+            known[e] = 1
             continue
         parts = [known[a] for a in e.args]
         if isinstance(e, sp.Add):
@@ -215,7 +216,7 @@ def terms(expr: sp.Basic) -> int:
             known[e] = _product([parts[0]] * min(abs(int(e.exp)), 64))
         else:
             known[e] = max([1, *parts]) if isinstance(e, sp.Pow) else 1
-            if isinstance(e, sp.Function) and parts and max(parts) > LONGEST:
+            if isinstance(e, sp.Function) and max(parts) > LONGEST:
                 known[e] = max(parts)
     return known[expr]
 

@@ -62,7 +62,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
             table |= {x: meant, -x: -meant}
     sizes |= {float(abs(cast("Any", x))) for x in table}
     put: list[AnsweredLine] = []
-    typed = typed_in_names(lines)
+    typed = tuple(typed_in_names(lines))
     for line in lines:
         expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)), typed)
         read, more = in_exact_terms(truth, replace(line, expr=expr), typed)
@@ -124,11 +124,13 @@ def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     return False
 
 
-def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -> tuple[sp.Expr, set[float]]:
+@lru_cache(maxsize=500)
+def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...]) -> tuple[sp.Expr, frozenset[float]]:
     """The one of the right lines that a line is, but for forces of constraints, if every number that differs is rounded
-    from what stands there, and the sizes of these numbers; otherwise the line itself and none."""
-    if not expr.atoms(sp.Rational) or bounded.operations(expr) > LONGEST:
-        return expr, set()
+    from what stands there, and the sizes of these numbers; otherwise the line itself and none. Kept: an answer is
+    judged several times."""
+    if not bounded.atoms(expr, sp.Rational) or bounded.operations(expr) > LONGEST:
+        return expr, frozenset()
     for form, divided in _own_forms(truth, expr):
         own = {k: x for k, x in _sums(form).items() if x}
         forces = {k: x for k, x in own.items() if _is_force(truth, k)}
@@ -140,8 +142,8 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: Sequence[sp.Rational]) -
         if not sizes and typed and not forces:
             found, sizes = within_rounding(form, typed, _right_lines(truth)) or (found, sizes)
         if sizes:
-            return sp.Add(*(k * x for k, x in (found | forces).items())), sizes
-    return expr, set()
+            return sp.Add(*(k * x for k, x in (found | forces).items())), frozenset(sizes)
+    return expr, frozenset()
 
 
 def _own_forms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[sp.Expr, bool]]:
@@ -273,9 +275,15 @@ def _sums(expr: sp.Expr) -> dict[sp.Expr, sp.Expr]:
     """The factors of what moves in an expanded expression."""
     sums: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(expr):
-        number, moving = term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
+        number, moving = _parted(term)
         sums[moving] = sums.get(moving, sp.S.Zero) + number
     return sums
+
+
+@lru_cache(maxsize=5_000)
+def _parted(term: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """The number of a term and what moves, kept: lines have many terms in common."""
+    return term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
 
 
 def _is_finite(x: sp.Expr) -> bool:
@@ -287,12 +295,13 @@ def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
     return {x: _size(x) for x in _sums(expr).values() if _is_finite(x)}
 
 
-def _solved(truth: Reference) -> list[sp.Expr]:
+@lru_cache(maxsize=32)
+def _solved(truth: Reference) -> tuple[sp.Expr, ...]:
     """The right equations solved for the accelerations, if their mass matrix consists of numbers."""
     M = truth.mass_matrix
     if truth.n > MAX_SOLVED or not all(x.is_number for x in M.flat()) or M.det() == 0:
-        return []
-    return list((M.inv() * sp.Matrix(truth.rows)).flat())
+        return ()
+    return tuple((M.inv() * sp.Matrix(truth.rows)).flat())
 
 
 def _eliminated(truth: Reference) -> list[sp.Expr]:

@@ -110,12 +110,14 @@ def with_forces_apart(
     """
     model, n = truth.model, truth.n
     bare = [x for x in lines if x.kind == "equation" and x.text and not re.search("[=≈≡]", x.text)]
+    if len(bare) != n:
+        return tuple(lines), ()
     acting = {c.name for c, own in zip(model.coordinates, truth.Xi, strict=True) if own != 0}
     forces = sp.Tuple(*truth.Xi).atoms(sp.Symbol, AppliedUndef) - sp.Tuple(truth.T, truth.V).atoms(
         sp.Symbol, AppliedUndef
     )
     stated = {x.name for x in lines if x.kind == "Xi"}
-    if len(bare) != n or n > MOST_PERMUTED or truth.derivation.multipliers or not forces or not acting <= stated:
+    if n > MOST_PERMUTED or truth.derivation.multipliers or not forces or not acting <= stated:
         return tuple(lines), ()
     if any(x.expr.has(*forces) for x in bare) or not all(
         x.expr.has(*(c.acceleration for c in model.coordinates)) for x in bare

@@ -233,6 +233,8 @@ class CompiledExpressions:
                 inputs.append(_constant(float(self._numbers[s]), states.size * times))
             elif times == 1:
                 inputs.append(instead[0][s] if s in instead[0] else states.of(s))
+            elif not any(s in x for x in instead):
+                inputs.append(np.tile(states.of(s), times))
             else:
                 inputs.append(np.concatenate([x[s] if s in x else states.of(s) for x in instead]))
         ids = tuple(self.ids)

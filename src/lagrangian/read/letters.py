@@ -81,7 +81,7 @@ def twin(name: str) -> str:
 
 def undotted(name: str) -> tuple[str, int]:
     """Remove the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); for other names the number is 0."""
-    return (normal(name), 0) if name.isascii() else _undotted(str(name))
+    return (name, 0) if name.isascii() else _undotted(str(name))
 
 
 @lru_cache(maxsize=4_096)

@@ -114,13 +114,17 @@ def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """The moving names in an answer that are not coordinates, inputs or definitions of the system."""
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
-    told = [line.expr for line in lines if line.kind != "statement"]
-    found = {f for expr in told for f in bounded.names(expr) if isinstance(f, AppliedUndef) and f.args == (time,)}
+    found = set[sp.Expr]().union(*(_moving(line.expr) for line in lines if line.kind != "statement"))
     return sorted(found - own, key=str)
 
 
-# -- names that only the answer has
-# -------------------------------------------------------------------------------------
+@lru_cache(maxsize=2_000)
+def _moving(expr: sp.Expr) -> frozenset[Any]:
+    """The functions of time in an expression, kept: many ask for them."""
+    return frozenset(f for f in bounded.names(expr) if isinstance(f, AppliedUndef) and f.args == (time,))
+
+
+# -- names that only the answer has -----------------------------------------------------------------------------------
 
 
 def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
@@ -280,8 +284,7 @@ def _static(truth: Reference) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
     return tuple((x, c) for x, c in found if c != 0)
 
 
-# -- quick test
-# ---------------------------------------------------------------------------------------------------------
+# -- quick test -------------------------------------------------------------------------------------------------------
 
 
 ROUNDING = 1e-12

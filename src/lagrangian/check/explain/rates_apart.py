@@ -17,7 +17,7 @@ from lagrangian.page.formula import Left
 def rates_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
     """The part with one rate that is missing, too much or another one, as the end of a sentence; nothing where there is
     one rate alone, or where several differ."""
-    rates = sorted(right.atoms(sp.Derivative) | written.atoms(sp.Derivative), key=str)
+    rates = sorted(bounded.atoms(right, sp.Derivative) | bounded.atoms(written, sp.Derivative), key=str)
     slopes = {v: (bounded.diff(written, v), bounded.diff(right, v)) for v in rates}
     if len(rates) < 2 or any(x.has(*rates) for pair in slopes.values() for x in pair):
         return ()
@@ -44,10 +44,10 @@ def carried_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
     """What a velocity has too much, or lacks, of rates that the other does not have, as the end of a sentence: what
     carries a body was added, as if the rest were relative to it, or was not, as if that were absolute."""
     for more, whole, said in ((written, right, " is added, as if "), (right, written, " is not added, as if ")):
-        for sign in (1, -1):
+        every, others = bounded.atoms(more, sp.Derivative), bounded.atoms(whole, sp.Derivative)
+        for sign in (1, -1) if others < every else ():
             rest = cast("sp.Expr", bounded.expand(more - sign * whole))
-            rates, others = rest.atoms(sp.Derivative), whole.atoms(sp.Derivative)
-            if rest != 0 and rates and others and not rates & others and more.atoms(sp.Derivative) == rates | others:
+            if rest != 0 and others and bounded.atoms(rest, sp.Derivative) == every - others:
                 ending = " were relative to it." if more is written else " were the whole velocity."
                 return (": ", sign * rest, said, whole, ending)
     return ()

@@ -95,7 +95,7 @@ class WrittenPieces:
         return self._known[key]
 
     def _contradict(self, told: Told) -> bool:
-        if not self.lines or (said := self._said(told)) is None:
+        if (said := self._said(told)) is None or not self.lines:
             return False
         number, times = said
         place = self.pool.places[id(told.mistake)]

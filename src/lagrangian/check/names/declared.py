@@ -109,7 +109,7 @@ def _implicit(
 
 def _constant(expr: sp.Expr, known: set[sp.Symbol]) -> bool:
     """Whether an expression contains unknown names, and nothing that changes with time."""
-    moving = bool(expr.atoms(AppliedUndef)) or time in expr.free_symbols
+    moving = bool(bounded.atoms(expr, AppliedUndef)) or time in expr.free_symbols
     return not moving and bool(expr.free_symbols - known) and bounded.operations(expr) <= LONGEST
 
 

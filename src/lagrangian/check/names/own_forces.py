@@ -81,7 +81,7 @@ def _hold_all_forces(truth: Reference, read: Sequence[AnsweredLine], lines: Sequ
 def _names_lagrangian(expr: sp.Expr) -> bool:
     """Whether an expression has the placeholder of L, or one of its derivatives."""
     lagrangian = ENERGIES["L"].func.__name__
-    return any(lagrangian in x.func.__name__ for x in expr.atoms(AppliedUndef))
+    return any(lagrangian in x.func.__name__ for x in bounded.atoms(expr, AppliedUndef))
 
 
 def without_own_names(

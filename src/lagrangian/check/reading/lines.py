@@ -37,7 +37,7 @@ from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
-from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, names_in, only_name
+from lagrangian.check.reading.nodes import derived, differentiated_by, has_matrix, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tell_general, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
@@ -176,7 +176,7 @@ class Lines:
         if len(sides) > 1 and only_name(sides[0]) is not None and is_matrix(sides[1]):
             return False  # its entries are in the letters of the system
         names = {key(str(token)) for side in sides for token, _ in names_in(side)} & self._matrices
-        written = any(tree.data == "matrix" for side in sides for tree in side.iter_subtrees())
+        written = any(map(has_matrix, sides))
         return len(names) > 1 or (written and (bool(self._matrices) or self.names.has_column(sides)))
 
     def _look_ahead(self, base: str) -> None:

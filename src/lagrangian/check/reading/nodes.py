@@ -150,7 +150,17 @@ def only_name(tree: Node) -> tuple[Token, int] | None:
 
 def derived(trees: Sequence[Tree]) -> set[str]:
     """The letters of which partial derivatives stand in the trees: H of ∂H/∂x."""
-    return {str(part.children[0]) for tree in trees for part in tree.iter_subtrees() if part.data == "partial"}
+    return {str(part.children[0]) for tree in trees for part in _partials(tree)}
+
+
+def _partials(tree: Tree) -> tuple[Tree, ...]:
+    """The partial derivatives in a tree."""
+    return kept(tree, "partials", lambda of: tuple(x for x in of.iter_subtrees() if x.data == "partial"))
+
+
+def has_matrix(tree: Tree) -> bool:
+    """Whether a matrix that is written out stands in a tree."""
+    return kept(tree, "matrix", lambda of: any(x.data == "matrix" for x in of.iter_subtrees()))
 
 
 def names_in(tree: Node) -> tuple[tuple[Token, bool], ...]:
@@ -197,6 +207,5 @@ def _rates_in(tree: Tree) -> tuple[int, list[tuple[int, Sequence[Node]]]]:
 
 def differentiated_by(trees: Sequence[Tree]) -> tuple[str, ...]:
     """The names by which energies are differentiated somewhere, each once."""
-    partial = (part for tree in trees for part in tree.iter_subtrees() if part.data == "partial")
-    found = (only_name(part.children[1]) for part in partial)
+    found = (only_name(part.children[1]) for tree in trees for part in _partials(tree))
     return tuple(dict.fromkeys(str(x[0]) for x in found if x is not None))

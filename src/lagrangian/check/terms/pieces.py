@@ -120,7 +120,7 @@ def denominator(exprs: Iterable[sp.Expr]) -> sp.Expr:
     for expr in exprs:
         for factor in sp.Mul.make_args(expr):
             base, exponent = factor.as_base_exp()
-            if exponent.is_Rational and exponent < 0 and not base.is_number:
+            if isinstance(exponent, sp.Rational) and exponent.p < 0 and not base.is_number:
                 powers[base] = max(powers.get(base, 0), -exponent)
     return cast("sp.Expr", sp.Mul(*[b**e for b, e in powers.items()]))
 
