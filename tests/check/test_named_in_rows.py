@@ -98,7 +98,7 @@ def test_a_sine_in_the_mass_matrix_is_no_matter_of_potential_energy() -> None:
 def test_a_wrong_denominator_of_one_row() -> None:
     wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
     kind, _, words = told("cart-pole", wrong)
-    assert kind == "denominator" and "numerator of x''" in words
+    assert kind.startswith("denominator") and "numerator of x''" in words
 
 
 def test_terms_of_a_solved_row_that_nothing_explains_are_those_of_its_numerator() -> None:
@@ -122,13 +122,13 @@ def test_a_part_of_an_equation_beside_it_is_no_mistake_of_its_own() -> None:
 def test_a_wrong_solved_row_beside_right_equations() -> None:
     wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
     kind, _, _ = told("cart-pole", f"{CART} = F\n{POLE} = 0\n{wrong}\n{POLE} = 0")
-    assert kind == "denominator"
+    assert kind.startswith("denominator")
 
 
 def test_the_wrong_term_of_a_denominator_is_told() -> None:
     wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('cos(theta)^2', 'cos(theta)')}")
     kind, _, words = told("cart-pole", f"{CART} = F\n{POLE} = 0\n{wrong}\n{POLE} = 0")
-    assert kind == "denominator"
+    assert kind.startswith("denominator")
     assert words.endswith("In it, -l^2*m^2*cos(theta) should be -l^2*m^2*cos(theta)^2."), words
 
 

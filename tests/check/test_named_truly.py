@@ -250,7 +250,7 @@ def test_of_a_far_fetched_explanation_what_differs_is_said_first() -> None:
     ("energy", "said"),
     [
         ("m/2*((x' - Omega*y)^2 + y'^2)", "along axes that turn, Omega*x is left out."),
-        ("m/2*((x' + Omega*y)^2 + (y' + Omega*x)^2)", "along axes that turn, -Omega*y has the wrong sign."),
+        ("m/2*((x' + Omega*y)^2 + (y' + Omega*x)^2)", "along axes that turn, Omega*y has the wrong sign."),
     ],
 )
 def test_parts_of_a_velocity_along_axes_that_turn(energy: str, said: str) -> None:

@@ -67,12 +67,13 @@ def _unrefuted(verdict: Verdict) -> Verdict:
 def _once(mistakes: Sequence[Mistake], verdict: Verdict) -> Iterator[Mistake]:
     """The mistakes without those that say again what is not what it should be, ẏ is −r φ̇ sin φ, not −r φ̇ cos φ, and
     without those in an equation that only follows from wrong lines."""
-    told = list[tuple[sp.Expr, ...]]()
+    told = list[tuple[object, object] | None]()
     for k, m in enumerate(mistakes):
-        pair = tuple(x for x in m.what.parts if isinstance(x, sp.Expr))[-2:] if NOT in str(m.what) else ()
-        if k and (pair in told or _only_follows(m, verdict)):
+        parts = m.what.parts
+        pair = next(((a, b) for a, x, b in zip(parts, parts[1:], parts[2:], strict=False) if x == NOT), None)
+        if k and ((pair is not None and pair in told) or _only_follows(m, verdict)):
             continue
-        told += [pair] if len(pair) == 2 else []
+        told.append(pair)
         yield m
 
 
