@@ -98,8 +98,8 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
         with np.errstate(all="ignore"):
             pair = wrong_term_below(truth, exprs[own.index(wrong[0])], wrong[0], ratios[wrong[0]])
         if pair is not None and pair[0] != pair[1]:
-            _, said = term_replaced(*pair)
-            first, *more = said.parts
+            one = 0 in pair or pair[0] == -pair[1]
+            first, *more = term_replaced(*pair)[1].parts if one else ("", pair[0], " should be ", pair[1], ".")
             words = text(*words.parts[:-1], f"{_DENOMINATOR} In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
             return Mistake("denominator_term", words, WHY_BELOW, 5, None, name, brief)
     return Mistake("denominator", words, WHY, 5, None, name, brief)
