@@ -103,9 +103,9 @@ def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredL
 
 
 def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
-    """Whether D is wrong by a constant times what the square of a rate has too much."""
+    """Whether T*, L or D is wrong by a constant times what the square of a rate has too much."""
     line = finding.line
-    right = right_value(truth, line, None) if line.kind == "D" else None
+    right = right_value(truth, line, None) if line.kind in ("T", "L", "D") else None
     pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
     if right is None or not pairs:
         return False

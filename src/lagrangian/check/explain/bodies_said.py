@@ -226,16 +226,18 @@ class BodiesSaid:
         return None
 
     def _of_their_own(self, said: tuple[SaidWrongly, ...]) -> tuple[SaidWrongly, ...]:
-        """Those of several wrong definitions that are not right as soon as the others are which they use: v² = v₁² + v₂²
-        of one of two equal bodies, below the v₂ of the other."""
+        """Those of several wrong definitions that are not right as soon as the others are which they use.
+
+        So v² = v₁² + v₂² of one of two equal bodies follows from the v₂ above it, that is told of the other.
+        """
 
         def follows(p: SaidWrongly) -> bool:
-            used = [x for x in said if x is not p and key(x.line.name or "") in p.line.names and x.right is not None]
+            used = [x for x in said if x is not p and key(x.line.name or "") in p.line.names]
             if not used or p.right is None:
                 return False
             expr = p.line.expr
             for x in used:
-                expr = cast("sp.Expr", expr.subs(x.line.expr, x.right))
+                expr = expr if x.right is None else cast("sp.Expr", expr.subs(x.line.expr, x.right))
             return zero_everywhere(self.truth, self.truth.put(self.truth.expand(expr)) - p.right)
 
         return tuple(p for p in said if not follows(p))

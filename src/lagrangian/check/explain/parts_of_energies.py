@@ -125,7 +125,7 @@ def _only_wrong(truth: Reference, kind: str, right: sp.Expr, parts: Mapping[int,
     return wrong[0] if letters and {of(t) for t in left} <= written else None
 
 
-def _terms(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
+def _terms(truth: Reference, expr: sp.Expr) -> set[sp.Expr]:
     """The terms of a sum, multiplied out."""
     return {*sp.Add.make_args(bounded.expand(truth.expand(expr)))} - {sp.S.Zero}
 

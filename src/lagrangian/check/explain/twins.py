@@ -14,8 +14,8 @@ _DIGITS = re.compile(r"\d+|\b[A-Z]\b")
 
 
 def twins(s: Ingredients) -> Iterator[tuple[Any, Any]]:
-    """The pairs of bodies whose names differ by a number or a letter alone, bucket A and bucket B, with the same mass and
-    moments of inertia."""
+    """The pairs of bodies with the same mass and moments of inertia whose names differ by a number or a letter alone,
+    bucket A and bucket B."""
     seen: dict[tuple[Any, ...], Any] = {}
     for b in s.bodies:
         inertia = tuple(map(s.expand, b.inertia.flat())) if isinstance(b, RigidBody) else ()

@@ -34,6 +34,7 @@ from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
+from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -191,6 +192,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
+    if not LATEX.search(plain.text):
+        plain = with_places_of_bodies(plain, lines.model, taken)
     return with_parts_of_energies(plain, lines.model, taken)
 
 

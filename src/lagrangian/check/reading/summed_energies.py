@@ -42,8 +42,8 @@ class PartsOfEnergies:
         """Of each energy, the names of its parts, by the number of the statement."""
 
     def gather(self, defining: Sequence[tuple[int, Subject]], statements: Sequence[Statement]) -> None:
-        """Record the parts of each energy that no statement gives and others use, L = T − V, ∂V/∂φ, or that are numbered
-        from 1 on.
+        """Record the parts of each energy that no statement gives, and that others use, L = T − V, ∂V/∂φ, or of which
+        the parts are numbered from 1 on.
 
         Nothing else uses their names, or they may be added up in another way.
         """
@@ -138,10 +138,7 @@ def things_with(model: Model, kind: str) -> list[frozenset[str]]:
     return found if all(found) else []
 
 
-def _factors(energy: sp.Expr) -> set[sp.Basic]:
+def _factors(energy: sp.Expr) -> set[sp.Symbol]:
     """The letters to which an energy that is given as it is is proportional: J of J φ'²/2."""
-    if not all(x.is_Mul for x in sp.Add.make_args(energy)):
-        return set()
-    return set[sp.Basic].intersection(
-        *({x for x in sp.Mul.make_args(term) if isinstance(x, sp.Symbol)} for term in sp.Add.make_args(energy))
-    )
+    held = [{x for x in sp.Mul.make_args(t) if isinstance(x, sp.Symbol)} for t in sp.Add.make_args(energy)]
+    return set[sp.Symbol].intersection(*held)
