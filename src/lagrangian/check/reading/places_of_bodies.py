@@ -25,6 +25,7 @@ _ROW = re.compile(
 _GIVEN = re.compile(r"(?<![\w\\'’′^])(?P<name>[A-Za-z]{1,2})[ \t]*+=(?![=>])")
 _GAP = re.compile(r"(?<=[^\s,;])[ ]{2}(?=[ ]*+[A-Za-z]{1,2}['’′]{0,2}[ \t]*+=(?![=>]))")
 """The space between two such formulas."""
+_LATEX = re.compile(r"\\[A-Za-z(\[]|\$")
 _WORD = re.compile(r"[^\W\d_]{3,20}")
 
 
@@ -50,7 +51,7 @@ def with_places_of_bodies(written: TracedText, model: Model, taken: Callable[[st
     in no other line with an equals sign.
     """
     lines = written.text.split("\n")
-    if len(lines) > MOST_LINES:
+    if len(lines) > MOST_LINES or _LATEX.search(written.text) is not None:
         return written
     rows, at = list[_Row](), 0
     for number, line in enumerate(lines):
