@@ -15,6 +15,7 @@ from lagrangian.check.explain.at_places import changes, proportional_at_places
 from lagrangian.check.explain.derivative_lines import LONGEST, WHY, product_rule, replaced
 from lagrangian.check.explain.free_bodies import proportional
 from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.check.explain.said_wrongly import said_of_rate
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import same_values, zero_everywhere
 from lagrangian.check.stated import right_value
@@ -117,14 +118,19 @@ def _has_its_acceleration(truth: Reference, finding: Finding, said: Sequence[Ans
 
 
 def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
-    """Whether D is wrong by a constant times what the square of a rate has too much."""
+    """Whether T*, L or D is wrong by a constant times what the square of a rate has too much."""
     line = finding.line
-    right = right_value(truth, line, None) if line.kind == "D" else None
-    pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
-    if right is None or not pairs:
+    right = right_value(truth, line, None) if line.kind in ("T", "L", "D") else None
+    if right is None or (line.kind != "D" and any(_is_along_an_axis(truth, x, line.expr - right) for x in said)):
         return False
+    pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
     values = CompiledExpressions([line.expr - right, *(b**2 - a**2 for a, b in pairs)]).at(truth.states)
     return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
+
+
+def _is_along_an_axis(truth: Reference, rate: AnsweredLine, more: sp.Expr) -> bool:
+    """Whether a rate is a velocity along a fixed axis, which is told as such, with all that follows from it."""
+    return any(zero_everywhere(truth, sp.Add(p.T, -more)) for p in said_of_rate(truth, rate))
 
 
 _WAYS = (_holds_with, _has_its_excess, _has_its_acceleration, _has_its_square)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import combinations, islice, product
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -21,6 +21,7 @@ from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.nearest_axes import nearest
 from lagrangian.check.explain.own_rates import said_of_length
+from lagrangian.check.explain.parts_of_energies import parts_in_whole_terms
 from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
@@ -28,6 +29,7 @@ from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation, 
 from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.held import OnConstraints
 from lagrangian.check.reference import Reference, without_time
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -123,6 +125,7 @@ class BodiesSaid:
         """What the definitions may have wrong."""
         held = columns(self.lines)
         entries = {id(x) for column in held for x in column}
+        entries |= {id(x) for x in parts_in_whole_terms(self.truth, self.lines)}
         told = [(x,) for x in self.lines if x.kind == "definition" and id(x) not in entries]
         open_ones = [x for x in held if key((x[0].name or "").removesuffix("_1")) not in self.proved]
         open_ones += [x for x in told if key(x[0].name or "") not in self.proved]
@@ -212,13 +215,32 @@ class BodiesSaid:
                 first = _first_of(sorted(firsts.values(), key=lambda p: p.number))
                 same = [p for k in chosen for p in [self.parts[k[0]]] if p.line is first.line]
                 said = self._used_by(first, effects, good, rest) or (of_its_body(self.truth, self.lines, same),)
-            places, lines = [self._place(p) for p in said], [p.line for p in said]
+            own = self._of_their_own(said)
+            places, lines = [self._place(p) for p in said], [p.line for p in own]
             wholes = [*(effects[k] for k in places), rest]
             alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in wholes)]
             alike += [*self._of_energy_alone(places), *self._of_parts(said)]
             later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
-            return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
+            later += [p.line for p in said if p not in own]
+            return Blamed(own, tuple(wrong), tuple({id(x): x for x in later}.values()))
         return None
+
+    def _of_their_own(self, said: tuple[SaidWrongly, ...]) -> tuple[SaidWrongly, ...]:
+        """Those of several wrong definitions that are not right as soon as the others are which they use.
+
+        So v² = v₁² + v₂² of one of two equal bodies follows from the v₂ above it, that is told of the other.
+        """
+
+        def follows(p: SaidWrongly) -> bool:
+            used = [x for x in said if x is not p and key(x.line.name or "") in p.line.names]
+            if not used or p.right is None:
+                return False
+            expr = p.line.expr
+            for x in used:
+                expr = expr if x.right is None else cast("sp.Expr", expr.subs(x.line.expr, x.right))
+            return zero_everywhere(self.truth, self.truth.put(self.truth.expand(expr)) - p.right)
+
+        return tuple(p for p in said if not follows(p))
 
     def _used_by(self, said: SaidWrongly, effects: Array, good: Sequence[int], rest: Array) -> tuple[SaidWrongly, ...]:
         """The several definitions that one uses, and that add up to the same: T₂ is wrong by its ẋ₂ and its ẏ₂."""

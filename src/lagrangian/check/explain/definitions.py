@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+
+import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.axes_meant import along_turned_axes
@@ -17,6 +20,9 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Status, inserted
 from lagrangian.model import time
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
+
+_FROM = re.compile(r"\b(?:distance|radius|lever arm|abstand|entfernung|hebelarm|rayon)\b", re.IGNORECASE)
+"""Words of what is counted from a given place."""
 
 
 def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -> tuple[Finding, ...]:
@@ -74,7 +80,7 @@ def with_right_definitions(
             parts.setdefault((line.number, line.text), []).append(line)
     found, turned = list(findings), along_turned_axes(truth, lines)
     senses = senses_of(truth, columns(lines))
-    alone = [(x, _right(truth, x, id(x) in turned)) for same in parts.values() for x in same]
+    alone = [(x, _right(truth, x, id(x) in turned, findings)) for same in parts.values() for x in same]
     letters, of_line = letters_meant(alone, truth), {id(x): right for x, right in alone}
     for same in parts.values():
         held = columns(same)
@@ -89,12 +95,25 @@ def with_right_definitions(
     return tuple(found)
 
 
-def _right(truth: Reference, line: AnsweredLine, turned: bool) -> list[Sayable]:
-    """The quantities that a definition has right; a position may be counted from another place."""
+def _right(truth: Reference, line: AnsweredLine, turned: bool, findings: Sequence[Finding]) -> list[Sayable]:
+    """The quantities that a definition has right; a position may be counted from another place, unless words say from
+    where, or a wrong T* moves with this distance."""
     if found := right_quantities(truth, line, turned=turned):
         return found
     placed = [q for q in right_quantities(truth, line, but=True) if q.kind in (*PLACED, "potential")]
+    if any(q.kind in PLACED for q in placed) and (_FROM.search(line.words) or _moves_wrongly(truth, line, findings)):
+        placed = [q for q in placed if q.kind not in PLACED]
     return [
         replace(q, words=(*q.words, ", but for a constant" if q.kind == "potential" else ", from another place"))
         for q in placed
     ]
+
+
+def _moves_wrongly(truth: Reference, line: AnsweredLine, findings: Sequence[Finding]) -> bool:
+    """Whether a wrong T* or L has a distance as a factor of rates: ½ m ρ² φ̇² of a ρ that may be a height by chance."""
+    rates = [c.rate for c in truth.model.coordinates]
+    if not line.expr.is_Add:
+        return False
+    wrong = [f.line.expr for f in findings if f.status is Status.WRONG and f.line.kind in ("T", "L")]
+    terms = (t for x in wrong for t in sp.Add.make_args(x))
+    return any(t.has(line.expr) and t.has(*rates) for t in terms)

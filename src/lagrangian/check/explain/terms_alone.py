@@ -52,7 +52,8 @@ def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:
     line = finding.line
     side, d = on_side(line, difference)
     origins = difference.origins
-    step = origins[0].step if origins and line.kind == "equation" else LINES.get(line.kind, 5)
+    told = origins and line.kind in ("equation", "definition")
+    step = origins[0].step if told else LINES.get(line.kind, 5)
     element = origins[0].element if len({o.element for o in origins}) == 1 else None
     where = f"In {line.title}{f', {side}' if side else ''}, "
     brief = text(f"A term in {line.title} is not right{f': one that comes from {element}' if element else ''}.")

@@ -9,11 +9,13 @@ from typing import Any
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.model import RigidBody
 
-_DIGITS = re.compile(r"\d+")
+_DIGITS = re.compile(r"\d+|\b[A-Z]\b")
+"""The numbers or letters by which the names of equal bodies differ."""
 
 
 def twins(s: Ingredients) -> Iterator[tuple[Any, Any]]:
-    """The pairs of bodies whose names differ by a number alone, with the same mass and moments of inertia."""
+    """The pairs of bodies with the same mass and moments of inertia whose names differ by a number or a letter alone,
+    bucket A and bucket B."""
     seen: dict[tuple[Any, ...], Any] = {}
     for b in s.bodies:
         inertia = tuple(map(s.expand, b.inertia.flat())) if isinstance(b, RigidBody) else ()

@@ -32,6 +32,7 @@ from lagrangian.check.explain.solved_forces import (
     without_derived,
 )
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
+from lagrangian.check.explain.two_wrong_balances import with_second_balance
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
@@ -311,20 +312,7 @@ def with_forces_of_below(
     kept = tuple(f for f in verdict.findings if not (f.status.right and _holds_force(f.line, numbers, names)))
     asked = replace(verdict, findings=kept)  # a balance says no more than the force that was solved from it beside it
     found = with_wrong_balance(truth, filled(truth, own), asked, filled(truth, later), judge)
-    return _without_what_says_forces(verdict, names) if found is asked else found
-
-
-def _without_what_says_forces(verdict: Verdict, names: set[str]) -> Verdict:
-    """The verdict on a wrong answer without calling a balance right that only says what a force is that was solved
-    from it; with a note on what was not judged."""
-    said = [
-        f
-        for f in verdict.findings
-        if f.status.right and f.line.kind == "equation" and f.line.names & names and bounded.expand(f.line.expr) == 0
-    ]
-    notes = [text(f"'{f.line.text}' was not judged: it says what a force is, which was solved from it.") for f in said]
-    findings = tuple(f for f in verdict.findings if f not in said)
-    return replace(verdict, findings=findings, notes=(*verdict.notes, *notes))
+    return with_second_balance(truth, filled(truth, own), asked, verdict, names) if found is asked else found
 
 
 def _holds_force(line: AnsweredLine, numbers: Collection[int], names: set[str]) -> bool:

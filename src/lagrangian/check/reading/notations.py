@@ -34,6 +34,7 @@ from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
+from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -139,12 +140,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
-    copied = copied if LATEX.search(text) else with_general_form(copied, len(moving))
+    copied = _copied(text) if LATEX.search(text) else with_general_form(_copied(text), len(moving))
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
-    listed = with_tables(typed_in, names.changes, taken)
-    listed = with_tables_written_out(listed)
+    listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
     own = {key(name) for name in lines.model.symbols}
@@ -191,7 +190,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
-    return with_parts_of_energies(plain, lines.model, taken)
+    return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
 
 
 def _straight(match: re.Match[str]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import cast
 
 import sympy as sp
@@ -29,6 +29,7 @@ _OF = {
 }
 """The names of a part of each energy."""
 _KIND_OF_MOTION = re.compile(r"_?(?:(?P<trans>trans)|(?P<rot>rot))", re.IGNORECASE)
+_NUMBERED = re.compile(r"[A-Za-z_{]{1,7}(?P<number>\d{1,2})\}?")
 _CALLED = {"T": "T*", "V": "V"}
 
 
@@ -41,7 +42,8 @@ class PartsOfEnergies:
         """Of each energy, the names of its parts, by the number of the statement."""
 
     def gather(self, defining: Sequence[tuple[int, Subject]], statements: Sequence[Statement]) -> None:
-        """Record the parts of each energy that no statement gives and others use: L = T − V, ∂V/∂φ.
+        """Record the parts of each energy that no statement gives, and that others use, L = T − V, ∂V/∂φ, or of which
+        the parts are numbered from 1 on.
 
         Nothing else uses their names, or they may be added up in another way.
         """
@@ -52,7 +54,8 @@ class PartsOfEnergies:
         for kind, form in _OF.items():
             named = [(i, s) for i, s in defining if s.token is not None and form.fullmatch(str(s.token))]
             alone = [i for i, s in named if self.names.occurs(str(s.token)) == 1 and not (s.order or s.inverse)]
-            if kind in used and len(named) == len(alone) > 1:
+            numbered = kind not in self.names.stating and are_numbered([str(s.token) for _, s in named])
+            if (kind in used or numbered) and len(named) == len(alone) > 1:
                 self._parts[kind] = {i: str(s.token) for i, s in named}
 
     def whole(self, i: int, made: Mapping[int, Sequence[AnswerLine]]) -> list[AnswerLine]:
@@ -90,9 +93,27 @@ class PartsOfEnergies:
         held = [frozenset(key(str(x)) for x in bounded.letters(value)) for value in values]
         things = things_with(self.model, kind)
         often = Counter(x for own in things for x in own)
+        moving = {c.symbol for c in self.model.coordinates} | rates
+        shared = are_numbered([*parts.values()]) and _share_no_term(values, moving)
         return bool(things) and all(
-            any(own & x for x in held) and all(sum(a in x for x in held) <= often[a] for a in own) for own in things
+            any(own & x for x in held) and (shared or all(sum(a in x for x in held) <= often[a] for a in own))
+            for own in things
         )
+
+
+def are_numbered(names: Sequence[str]) -> bool:
+    """Whether names are a letter with the numbers from 1 on, each once: T1, T2, T3."""
+    found = [_NUMBERED.fullmatch(x) for x in names]
+    return [int(m["number"]) for m in found if m is not None] == [*range(1, len(names) + 1)]
+
+
+def _share_no_term(values: Sequence[sp.Expr], moving: Collection[sp.Basic]) -> bool:
+    """Whether no two energies have a term with the same positions and rates: parts by kind of motion, x'² and φ'²."""
+    held = [
+        {t.as_independent(*moving, as_Add=False)[1] for t in sp.Add.make_args(bounded.expand(value))}
+        for value in values
+    ]
+    return sum(map(len, held)) == len(set[object]().union(*held))
 
 
 def things_with(model: Model, kind: str) -> list[frozenset[str]]:
@@ -112,5 +133,12 @@ def things_with(model: Model, kind: str) -> list[frozenset[str]]:
         if isinstance(e, (Gravity, Body)) or model.expand(e.kinetic(model) if kind == "T" else e.potential(model)) == 0:
             continue
         letter = e.L if isinstance(e, Inductor) else e.k if isinstance(e, Spring) else None
-        found.append(frozenset({key(str(letter))} if isinstance(letter, sp.Symbol) else ()))
+        letters = {letter} if isinstance(letter, sp.Symbol) else _factors(e.kinetic(model) + e.potential(model))
+        found.append(frozenset(key(str(x)) for x in letters))
     return found if all(found) else []
+
+
+def _factors(energy: sp.Expr) -> set[sp.Symbol]:
+    """The letters to which an energy that is given as it is is proportional: J of J φ'²/2."""
+    held = [{x for x in sp.Mul.make_args(t) if isinstance(x, sp.Symbol)} for t in sp.Add.make_args(energy)]
+    return set[sp.Symbol].intersection(*held)
