@@ -1,6 +1,6 @@
 """The letter d in front of what moves is a factor where a constant has this name, and the sign of a rate elsewhere.
 
-Oracle: a pendulum on a pivot with two dampers, m l² θ″ + 2 c θ′ + m g l sin θ = 0, whose damping is called d, D, dt or b.
+Oracle: a pendulum on a pivot with two dampers, m l² θ″ + 2 c θ′ + m g l sin θ = 0, with c called d, D, dt or b.
 """
 
 from __future__ import annotations

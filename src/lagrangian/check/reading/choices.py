@@ -82,7 +82,8 @@ class Choices:
         if self.rated:
             yield "Names that words call velocities or accelerations were read as the rates of the coordinates."
         if self.factored is not None:
-            yield f"The d in front of names of what moves was read as {'a factor' if self.factored else 'that of rates'}."
+            of = "a factor" if self.factored else "that of rates"
+            yield f"The d in front of names of what moves was read as {of}."
         if self.put:
             yield "What the answer says of coordinates was put into its energies before they were differentiated."
         if self.listed is not None:
