@@ -1,4 +1,4 @@
-"""Takes words of a direction off formulas, of which they are no factors: y = (r1 φ1 - r2 φ2)/2 down, N = m g upwards."""
+"""Takes words of a direction off formulas, of which they are no factors: y = (r1 φ1 - r2 φ2)/2 down, N = m g up."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ _WAY = (
     r"|horizontally|vertically|radially|tangentially"
     r"|nach[ ](?:unten|oben|links|rechts|innen|außen|vorne?|hinten)|(?:ab|auf|vor|rück|ein|aus|hangab|hangauf)wärts"
     r"|bergab|bergauf|im[ ]Uhrzeigersinn|(?:gegen[ ]den|entgegen[ ]dem)[ ]Uhrzeigersinn"
-    r"|vers[ ](?:le[ ](?:bas|haut)|la[ ](?:gauche|droite)|l['’](?:avant|arrière|intérieur|extérieur))|à[ ](?:gauche|droite)"
+    r"|vers[ ](?:le[ ](?:bas|haut)|la[ ](?:gauche|droite)|l['’](?:avant|arrière|intérieur|extérieur))"
+    r"|à[ ](?:gauche|droite)"
 )
 _ALONE = re.compile(_WAY, re.IGNORECASE)
 _BEHIND = re.compile(

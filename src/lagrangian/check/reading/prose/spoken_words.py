@@ -16,7 +16,9 @@ _TWO = re.compile(
     r"(?<![\\\w*/^+=-])(?P<word>[^\W\d_]{2,6})[ \t]++(?=(?P<next>[^\W\d_]{3,24})(?![\w'’′(*/^=]))", re.IGNORECASE
 )
 """A short word with a longer one behind it, and no sign of mathematics beside them."""
-_LED_BY = r"the|an?|each|our|its|of|from|at|on|in|by|for|der|die|das|den|dem|des|eine[mnrs]?|vom|am|im|beim|zum|du|au|une?|sur"
+_LED_BY = (
+    "the|an?|each|our|its|of|from|at|on|in|by|for|der|die|das|den|dem|des|eine[mnrs]?|vom|am|im|beim|zum|du|au|une?|sur"
+)
 _NOUN = re.compile(
     rf"(?<![\\\w])(?:(?:{_LED_BY})[ \t]++){{1,3}}+(?P<word>[^\W\d_][a-zäöü]{{2,23}})(?=[ \t,.;:)]|['’]s\b|$)",
     re.IGNORECASE | re.MULTILINE,
