@@ -138,3 +138,55 @@ def test_forces_of_constraints_at_rest_are_a_remark() -> None:
     assert wheel().check(f"{rows}\n{said}").right
     assert not wheel().check(f"{rows.replace('- H', '+ H')}\n{said}").right
     assert not wheel().check(f"{rows.rpartition(chr(10))[0].replace('R H', 'H')}\n{said}").right
+
+
+@cache
+def hoist() -> lg.Derivation:
+    """A drum that hauls a load by a rope with damping, whose force holds rates."""
+    s = lg.System("hoist")
+    theta, x = s.coordinates("theta x")
+    J, M, R, k, d, c, g = s.parameters("J M R k d c g")
+    s.kinetic(J * theta.diff() ** 2 / 2, name="drum")
+    s.particle(M, at=s.point("L", (0, x)), name="load")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=R * theta - x, name="rope")
+    s.damper(d, deflection=R * theta - x, name="damping of the rope")
+    s.damper(c, deflection=x, name="drag")
+    s.torque(s.input("tau"), on=theta)
+    return s.derive()
+
+
+HOIST = "S = k (R θ − x) + d (R θ' − x')\nJ θ'' = τ - S R\nM x'' = S - c x' - M g\n"
+
+
+@pytest.mark.parametrize(
+    ("said", "forces"),
+    [
+        ("Check: at rest S = M g and τ = R M g. Plausible.", ["S = M g"]),
+        ("Check: at rest S = M g, τ = M g R.", ["S = M g"]),
+        ("At rest τ = R M g and S = M g.", ["S = M g"]),
+        ("In equilibrium: S = M g, x = R θ - M g/k", ["S = M g", "x = R θ - M g/k"]),
+        ("Check: S = M g and τ = R M g at rest.", ["S = M g"]),
+        ("Check: at rest S = M g and\nτ = R M g.", ["S = M g"]),
+        ("at rest S = τ/R", ["S = τ/R"]),
+    ],
+)
+def test_all_that_words_of_rest_introduce_is_about_rest(said: str, forces: list[str]) -> None:
+    verdict = hoist().check(HOIST + said)
+    notes = [str(x) for x in verdict.notes]
+    assert verdict.right
+    assert all(f"'{force}' was not judged: it is about the position at rest." in notes for force in forces)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Check: at rest S = 2 M g and τ = R M g.",
+        "At rest τ = R M g and S = M g R.",
+        "at rest S = τ R",
+        "Check: S = M g",
+        "S = M g and τ = R M g.",
+    ],
+)
+def test_a_force_that_is_wrong_at_rest_or_not_said_to_be_there_is_wrong(said: str) -> None:
+    assert not hoist().check(HOIST + said).right

@@ -23,6 +23,7 @@ from lagrangian.check.places import (
     prescribed_angles,
     relates_freedoms,
     rests,
+    rests_without_rates,
 )
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
@@ -49,8 +50,7 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    said = [line for line in lines if line.kind == "identity" and not line.expr.has(sp.Derivative)]
-    values = [line for line in said if rests(truth, line.expr, said="rest" in line.beside)]
+    values = [line for line in lines if line.kind == "identity" and _is_of_rest(truth, line)]
     complete = comparison.rank >= truth.n
     if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
@@ -78,6 +78,15 @@ def beside(
     untrue = [line for line in placed if id(line) not in aside and only_places(truth, line.expr)]
     told += [f"'{_once(line.text)}' is not true: neither of every motion nor of a position at rest." for line in untrue]
     return kept, tuple(text(note) for note in dict.fromkeys(told))
+
+
+def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a statement on a force or a position is right at rest, S = m g; with rates, where S was k δ + b δ′ above,
+    only if words say that it is about rest."""
+    said = "rest" in line.beside
+    if line.expr.has(sp.Derivative):
+        return said and rests_without_rates(truth, line.expr, [])
+    return rests(truth, line.expr, said=said) is True
 
 
 def _once(written: str) -> str:

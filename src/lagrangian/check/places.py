@@ -59,7 +59,7 @@ def place_or_approximation(
         return AT_REST
     if (holds := rests(truth, expr, given, said=said)) is not None:
         return AT_REST if holds else None
-    if said and _rests_without_rates(truth, expr, given):
+    if said and rests_without_rates(truth, expr, given):
         return AT_REST
     changing = only_places(truth, expr)
     if not changing:
@@ -128,7 +128,7 @@ def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, sai
     return holds if holds or claims or formula else None
 
 
-def _rests_without_rates(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr]) -> bool:
+def rests_without_rates(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr]) -> bool:
     """Whether a line that is said to be about rest holds there: S = m g, where S was k δ + b δ′ above."""
     if any(x.derivative_count > 1 for x in expr.atoms(sp.Derivative)):
         return False

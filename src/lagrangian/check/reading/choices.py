@@ -18,6 +18,10 @@ from lagrangian.model import Model
 from lagrangian.records import dataclass
 
 _DIFFERENTIATES = re.compile(r"(?<!\w)D\[|(?<!\w)diff\(")
+_MARKS = re.compile("(?<=[^\\W_])['’′\u0307\u0308](?!s\\b)|[ẋẍẏÿżṙṡ]")
+"""Marks of rates."""
+_RATES_WITH_D = re.compile(r"(?<![\w/])(?:d{1,2}[^\W\d]\w{0,12}[ \t]*=(?!=)|dd[^\W\d])|/[ \t]?d(?!t\b)[^\W\d]")
+"""What only rates and differentials do: they are given a value, differentiated again, or divided by each other."""
 MOST_AGAIN = 4
 """The largest number of readings of all rows that cannot be read."""
 
@@ -26,7 +30,8 @@ MOST_AGAIN = 4
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
-    accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), whether
+    accelerations as the rates of coordinates, a letter d in front of what moves as a factor (``factored``) where a
+    constant has this name, whether remarks beside the equations are left out (``bare``), whether
     ``comments`` with equations of motion are read, whether coordinates that are given in others are ``put`` into
     energies before these are differentiated, whether names with values of time alone are inputs (``driven``), and
     which rows, at the places in ``marks``, are without what may be no part of them, in the reading of this number."""
@@ -36,6 +41,7 @@ class Choices:
     units: bool = False
     summed: bool = False
     rated: bool = False
+    factored: bool | None = None
     bare: bool = False
     comments: bool = False
     put: bool | None = None
@@ -51,6 +57,12 @@ class Choices:
     def puts(self, text: str) -> bool:
         """Whether coordinates that are given in others are put into energies: a program that differentiates does so."""
         return self.put if self.put is not None else _DIFFERENTIATES.search(text) is not None
+
+    def factors(self, text: str) -> bool:
+        """Whether a d in front of what moves is a factor: where marks, and no such letters, are the signs of rates."""
+        if self.factored is not None:
+            return self.factored
+        return _MARKS.search(text) is not None and _RATES_WITH_D.search(text) is None
 
     def row(self, row: AnswerRow, words: Words) -> AnswerRow:
         """A row in the reading that is chosen for it, as a note tells."""
@@ -69,6 +81,9 @@ class Choices:
             yield "Arguments without brackets, as in cosθ1-θ2, were read as sums: cos(θ1-θ2)."
         if self.rated:
             yield "Names that words call velocities or accelerations were read as the rates of the coordinates."
+        if self.factored is not None:
+            of = "a factor" if self.factored else "that of rates"
+            yield f"The d in front of names of what moves was read as {of}."
         if self.put:
             yield "What the answer says of coordinates was put into its energies before they were differentiated."
         if self.listed is not None:
@@ -92,6 +107,8 @@ def less_likely(words: Words, *, rated: bool, listed: bool | None, remarks: bool
         yield Choices(flipped=True)
     if listed is not None:
         yield Choices(listed=listed)
+    if words.factored_asked:
+        yield Choices(factored=not words.factored)
     if remarks:
         yield Choices(bare=True)
 

@@ -277,6 +277,7 @@ def _left_out(
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
     """Set how words and relations of coordinates are read."""
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
+    words.factored = reading.factors(text)
     lines.names.relations.put, lines.names.inputs.put = reading.puts(text), reading.driven
 
 

@@ -13,8 +13,11 @@ from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.plain.ends import incomplete
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_words
 from lagrangian.check.reading.prose.conditions import IF
+from lagrangian.check.reading.prose.directions import is_direction
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
+_BEHIND = re.compile(r"(?:\s|\\[,;:!]|&)*+(?:[,.;]|\\\\|\\q?quad|\\end|\\\]|\$|\Z)")
+"""What stands behind a word of a direction that is no factor."""
 _DISPLAYS = [
     "equation",
     "align",
@@ -215,7 +218,9 @@ def _without_words(text: str) -> str:
         end = closing(text, match.end())
         words = text[match.end() : end - 1].strip()
         symmetric = words.lower().rstrip(".") in _SYMMETRIC
-        if symmetric or not _SHORT.match(words) or words.lower() in _LINKS:
+        behind = is_direction(words) and _BEHIND.match(text, end) is not None
+        behind = behind and text[: match.start()].rstrip(" ~\\,;:")[-1:] not in {*"=+-*/({", ""}
+        if symmetric or behind or not _SHORT.match(words) or words.lower() in _LINKS:
             text = blank(text, match.start(), end)
             text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
         at = end

@@ -57,6 +57,11 @@ _ONE = re.compile(
     r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_⁰¹²³⁴-⁹]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
 )
 _RATE = re.compile(r"d[ \t]?(?:\^[ \t]?2|²)?[ \t]?\w{0,24}+(?:\(t\))?[ \t]?/[ \t]?dt")
+_BY_TIME = re.compile(r"[ \t]?/[ \t]?dt(?!\w)")
+_LONGEST = 24
+"""The most letters of a word among which a rate is sought."""
+_MARKED = re.compile(rf"{_PRIME}(?!s\b)")
+_QUOTIENT = re.compile(r"[ \t]*/[ \t]*[(]?d")
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _WORD = re.compile(_NAME)
 _ENERGIES = frozenset("TVLDℒ")
@@ -113,7 +118,8 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
             tokens.append(AnswerToken(kind, match.group(), match.start(), at))
             at = _with_unit(tokens, text, at, words, value=value, units=units)
         elif kind == "name":
-            tokens += _names(match.group(), source, match.start(), words)
+            at = match.start() + (before_rate(match, words) or len(match.group()))
+            tokens += _names(text[match.start() : at], source, match.start(), words)
         else:
             tokens.append(AnswerToken(match.group() if kind == "bracket" else kind, match.group(), match.start(), at))
     tokens.append(AnswerToken("end", "", len(text), len(text)))
@@ -135,6 +141,21 @@ def _is_rate(name: str, words: Words) -> bool:
     coordinates = [key(c.name) for c in words.names.model.coordinates]
     shortened = any(c.startswith(key(stem)) for c in coordinates for stem in stems if len(stem) > 1)
     return shortened or any(map(words.names.changes, stems))
+
+
+def before_rate(match: re.Match[str], words: Words) -> int:
+    """How many letters of a word are factors of a rate that begins in it, as in bdθ/dt and md²x/dt²; 0 if none is."""
+    word, text = match.group(), match.string
+    if words.is_name(word):
+        return 0
+    if word[-1] == "d" and (rate := TOKEN.match(text, match.end() - 1)) is not None and rate["rate2"] is not None:
+        cuts = [len(word) - 1]
+    elif _BY_TIME.match(text, match.end()) is not None:
+        moving = (k for k, c in enumerate(word[:_LONGEST]) if k and c == "d" and len(word) > k + 1)
+        cuts = [k for k in moving if words.names.changes(word[k + 1 :]) or words.is_own(word[k + 1 :])]
+    else:
+        return 0
+    return next((k for k in cuts if words.is_name(word[:k]) or words.is_product(word[:k])), 0)
 
 
 def _is_times_rate(of: str, words: Words) -> bool:
@@ -169,6 +190,12 @@ def _names(word: str, source: Source, start: int, words: Words) -> Iterator[Answ
 def _parts(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
     """The tokens of a word without virtual displacements."""
     end = start + len(word)
+    quotient = _QUOTIENT.match(source.text, end) or source.text[:start].rstrip()[-1:] == "/"  # dx/dθ
+    if not quotient and (stem := words.behind_factor(word, rated=_MARKED.match(source.text, end) is not None)):
+        words.note_split(word, f"d {stem}")
+        yield AnswerToken("name", "d", start, start + 1)
+        yield AnswerToken("name", stem, start + 1, end)
+        return
     called = bool(re.match(r"\s*[\w(\[^²³√]|\s*\*\*", source.text[end : end + 8]))
     at = start
     for part in words.parts(word, source, start, called=called):

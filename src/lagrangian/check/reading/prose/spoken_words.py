@@ -5,8 +5,10 @@ forces that are a term: m x'' = Hx."""
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import islice
 
+from lagrangian.check.reading.prose.splits import LONGEST
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING
 
@@ -14,12 +16,21 @@ _TWO = re.compile(
     r"(?<![\\\w*/^+=-])(?P<word>[^\W\d_]{2,6})[ \t]++(?=(?P<next>[^\W\d_]{3,24})(?![\w'’′(*/^=]))", re.IGNORECASE
 )
 """A short word with a longer one behind it, and no sign of mathematics beside them."""
+_LED_BY = (
+    "the|an?|each|our|its|of|from|at|on|in|by|for|der|die|das|den|dem|des|eine[mnrs]?|vom|am|im|beim|zum|du|au|une?|sur"
+)
 _NOUN = re.compile(
-    r"(?<![\\\w])(?:the|an?|each|our|der|die|das|den|dem|des|eine[mnrs]?)[ \t]++"
-    r"(?P<word>[a-zäöü]{4,24})(?=[ \t,.;:)]|$)",
+    rf"(?<![\\\w])(?:(?:{_LED_BY})[ \t]++){{1,3}}+(?P<word>[^\W\d_][a-zäöü]{{2,23}})(?=[ \t,.;:)]|['’]s\b|$)",
     re.IGNORECASE | re.MULTILINE,
 )
-"""A word behind an article: at the drum u = r φ."""
+"""A word behind an article or a preposition: at the drum u = r φ, position of the bar y = r cos φ."""
+_COMPOUND = re.compile(
+    r"(?<![\w\\*/^+=(-])(?P<first>[^\W\d_][a-zäöü]{2,23})[ ](?P<second>[a-zäöü]{3,24})(?![\w'’′(*/^])", re.MULTILINE
+)
+"""Two words beside each other: needle bar."""
+_SHORT = 3
+"""The letters of a word that is no noun if it stands in mathematics anywhere."""
+_FUNCTION = r"(?:sin|cos|tan|sqrt|exp)"
 _VOWEL = re.compile(r"[aeiouyäöü]", re.IGNORECASE)
 _SPELLED_OUT = re.compile(r"[ \t]{0,9}[^\W\d_](?:[ \t]?[·*×⋅][ \t]?[^\W\d_]){1,7}(?![ \t]?[\w·*×⋅/^+(-])")
 _DOUBLED = re.compile(
@@ -43,8 +54,31 @@ def spoken_words(text: str, words: Words) -> frozenset[str]:
     stand beside an operator."""
     found = (m for m in islice(_TWO.finditer(text), _MOST) if m["word"].lower() in LINKING - ARTICLES)
     short = {m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words)}
-    nouns = {m["word"] for m in islice(_NOUN.finditer(text), _MOST) if _VOWEL.search(m["word"])}
-    return frozenset(short | {x for x in nouns if not words.known(x) and not words.is_used(x) and not function_of(x)})
+    nouns = {m["word"] for m in islice(_NOUN.finditer(text), _MOST)} | set(_compounds(text, words))
+    nouns = {x for x in nouns if _VOWEL.search(x) and not words.known(x) and not words.is_used(x)}
+    return frozenset(short | {x for x in nouns if not function_of(x) and not _is_factor(x, text)})
+
+
+def _compounds(text: str, words: Words) -> Iterator[str]:
+    """The words beside a longer one that is neither a name nor a product."""
+    at = 0
+    for _ in range(_MOST):
+        if (match := _COMPOUND.search(text, at)) is None:
+            return
+        pair = match["first"], match["second"]
+        for one, other in (pair, pair[::-1]):
+            if len(other) > _SHORT and other.lower() not in LINKING and _is_word(other, words):
+                yield one
+        at = match.start("second")
+
+
+def _is_factor(word: str, text: str) -> bool:
+    """Whether a word stands beside a sign of mathematics, a number or a function: + mga sin θ."""
+    if len(word) > LONGEST:
+        return False
+    signs = r"[-+−*/^·×⋅=]"
+    beside = rf"(?:{signs}[ \t]*|\d[ \t]?){word}(?!\w)|(?<!\w){word}[ \t]?(?:[-+−*/^·×⋅²³][ \t]*[\w(]|\(|{_FUNCTION})"
+    return re.search(beside, text) is not None
 
 
 def doubled_letters(text: str) -> dict[str, None]:

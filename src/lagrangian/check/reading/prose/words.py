@@ -51,6 +51,8 @@ MAX_TOLD = 6
 _WHOLE = frozenset(
     ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot", "const"]
 )
+_ENERGIES = frozenset("TVUWELPHDA")
+"""Letters of energies, work and power, of which dW is a small change."""
 _NUMBER = re.compile(r"\d+")
 _GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
 """A Greek letter, which is no word with the Latin letters beside it."""
@@ -138,6 +140,10 @@ class Words:
         """Whether cosθ1-θ2, written without gaps, is read as cos(θ1 - θ2)."""
         self.summed_asked = False
         """Whether there was such an argument."""
+        self.factored = False
+        """Whether the letter d in front of what moves, dω, is a constant of that name, and no sign of a rate."""
+        self.factored_asked = False
+        """Whether there was such a letter, without a mark of a rate behind it."""
         self.unread: list[ParseError] = []
         """The errors of sentences with an equals sign and names of the system that were not read."""
 
@@ -228,6 +234,22 @@ class Words:
             return False
         return self.is_function(word) or (len(word) > 2 and did_you_mean(word.lower(), FUNCTIONS) is not None)
 
+    def behind_factor(self, word: str, *, rated: bool = False) -> str | None:
+        """What moves behind the letter d that is the name of a constant: θ in dθ', where a mark of a ``rated`` one
+        follows; without it only where such letters are factors. None if d is none."""
+        stem = word[1:]
+        if word[:1] != "d" or not stem or self.is_name(word) or not self.is_name("d") or self.names.changes("d"):
+            return None
+        spelled = (x for _, x in spelled_rates(stem) if stem[:1] != "d" and key(stem).endswith(("d", "dot")))
+        rated = rated or any(map(self.names.changes, spelled))
+        own = self.is_own(stem) and stem not in _ENERGIES
+        if not (own or self.names.changes(stem) or any(self.names.changes(x) for _, x in spelled_rates(stem))):
+            return None
+        if stem[:1] == "d" and not self.is_name(stem):
+            return None  # ddθ
+        self.factored_asked = self.factored_asked or not rated
+        return stem if rated or self.factored else None
+
     def parts(self, word: str, source: Source, start: int, *, called: bool) -> list[str]:
         """The names of which a word consists, the word itself if it is a name or cannot be split.
 
@@ -288,6 +310,12 @@ class Words:
             return True
         if any(self.names.changes(stem) and len(part) - len(stem) > 2 for _, stem in spelled_rates(part)):
             return True
+        if (
+            part[0] == "d"
+            and part != word
+            and self._is_differential_of(part.removeprefix("dd").removeprefix("d"), part)
+        ):
+            return True
         if not extra or part in ("t", "pi"):
             return extra
         if _GREEK_LETTER.fullmatch(part):
@@ -296,6 +324,17 @@ class Words:
             return False  # words of sentences: ax is no a x
         alone = key(part) in self._alone or key(undotted(part)[0]) in self._alone
         return alone and key(part) != key(word) and not self.is_product(part)
+
+    def _is_differential_of(self, stem: str, part: str) -> bool:
+        """Whether a part of a word is the rate of what moves, dθ in bdθ, where no constant is called d; a Latin letter,
+        dy in body, only if dy stands elsewhere, too."""
+        if not stem or self.is_name("d") or not self.names.changes(stem):
+            return False
+        return not stem.isascii() or stem in _SPELLED or key(part) in self._alone
+
+    def note_split(self, word: str, parts: str) -> None:
+        """Note how a word was split."""
+        self._split.setdefault(word, parts)
 
     def notes(self) -> Iterator[str]:
         """How words were split, in one sentence."""
