@@ -31,17 +31,22 @@ def with_certain_terms(verdict: Verdict) -> Verdict:
 
 
 def _without_turned_rows(verdict: Verdict) -> Verdict:
-    """The verdict without the terms of an equation that was compared with its negative: ẍ, for which it is solved, is
-    not what has the wrong sign."""
+    """The verdict without the terms of an equation that was compared with its negative, or with a multiple: ẍ, for which
+    it is solved, is not what has the wrong sign, and not all but one term count half."""
     findings = tuple(replace(f, differences=()) if _is_turned(f) else f for f in verdict.findings)
     return replace(verdict, findings=findings) if verdict.mistakes and findings != verdict.findings else verdict
 
 
 def _is_turned(finding: Finding) -> bool:
     solved = finding.line.sides[0] if finding.line.sides is not None else None
-    if not isinstance(solved, sp.Derivative) or len(finding.differences) < 2:
+    if len(finding.differences) < 2 or finding.line.kind != "equation":
         return False
-    return any(d.kind == "sign" and d.written in (solved, -solved) for d in finding.differences)
+    ratios = {bounded.cancel(d.written / d.term) for d in finding.differences if d.term != 0}
+    if len(finding.differences) > 2 and len(ratios) == 1 and all(r.is_number and r not in (0, 1) for r in ratios):
+        return any(x.derivative_count > 1 for d in finding.differences for x in d.term.atoms(sp.Derivative))
+    return isinstance(solved, sp.Derivative) and any(
+        d.kind == "sign" and d.written in (solved, -solved) for d in finding.differences
+    )
 
 
 def _with_cancelled(verdict: Verdict) -> Verdict:
