@@ -353,9 +353,11 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
 
 
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
-    """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged."""
+    """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged, and
+    for energies without a value in lines that are judged by another side, p = ∂L/∂x' = m x'."""
     why = ("nothing else uses ", "no equation uses this matrix ", "it is an expression without an equals sign")
-    why = (*why, "it is a list without an equals sign")
+    why = (*why, "it is a list without an equals sign", "an energy in it has no value", "it is a general form")
+    why = (*why, "nothing says what is differentiated there")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
