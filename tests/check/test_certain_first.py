@@ -181,3 +181,12 @@ def test_an_equation_that_was_compared_with_its_negative_has_no_list_of_terms() 
     found = told("h'' = (F - k h)/m - x''\nx'' = (-K x - k h + F)/M", SLIDE)
     assert not found.right
     assert not any(d.kind == "sign" and d.written.is_Derivative for f in found.findings for d in f.differences)
+
+
+@pytest.mark.parametrize("label", ["and solved for ẍ:", "Solved for ẍ:", "for ẍ:", "solved:", "then ẍ:"])
+def test_an_equation_behind_the_acceleration_for_which_it_is_solved_is_judged(label: str) -> None:
+    """A wrong one below right equations is no remark: "for ẍ: ẍ = …" names no special case."""
+    rows = "(M + m) ẍ + m ḧ + K x = 0\nm ẍ + m ḧ + k h = F\n"
+    assert told(f"{rows}{label} ẍ = -(m ḧ + K x)/(M + m)", SLIDE).right
+    found = told(f"{rows}{label} ẍ = -(m ḧ + K x)/M", SLIDE)
+    assert not found.right and found.first_wrong is not None and found.first_wrong.line.number == 3

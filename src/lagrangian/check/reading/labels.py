@@ -62,7 +62,7 @@ _COORDINATE = re.compile(
 _BROKEN = re.compile(r"(?<=[-+−–*·(=])[ \t]*+\n|\n[ \t]*+(?=[-+−–=])")
 """The end of a line where an equation goes on below it."""
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
-_LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’–-]{0,60}:(?!=)")
+_LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’\u0307\u0308–-]{0,60}:(?!=)")
 _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
 _QUANTITY = rf"(?:[∂d][²2]?\s?/\s?(?:[∂d]\w{{1,12}}[²2]?|\([∂d]\w{{1,12}}\))|{_NAMED})"
 _SLOPE = rf"(?:d\s?/\s?dt\s?)?\(?[∂d]\s?[TVULD]\s?/\s?[∂d]\s?{_NAMED}\)?"
@@ -77,7 +77,7 @@ _OF_VALUE = re.compile(
 """Which coordinate a general letter is: q = x: m x'' = F."""
 _HEAD = re.compile(r"\s*+(?P<said>[^\W\d_](?:[^=:()]|\([^=:()]*+(?:\([^=:()]*+\)[^=:()]*+)*+\)){2,100}?):(?![=\w])")
 _IN_BRACKETS = re.compile(r"\([^()]*+(?:\([^()]*+\)[^()]*+)*+\)")
-_SPOKEN_SIGNS = re.compile(r"[\w\s.,#'’&+/*–-]*")
+_SPOKEN_SIGNS = re.compile(r"[\w\s.,#'’\u0307\u0308&+/*–-]*")
 DIRECTIONS = "eqn?|equation|gl|gln|gleichung|dir|direction|axis|richtung|achse|coordinate|komponente|component"
 _OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{DIRECTIONS})\b\.?[ \t]++(?=[^\s=+*/^-])", re.IGNORECASE)
 _FAR = re.compile(r"\s*+(?P<said>[^\W\d_][\w.#’-]{1,24}(?:[ ][\w.#’-]{1,24}){0,3}+)(?:[ \t]{2,}|\t)(?=[^\s=+*/^])")

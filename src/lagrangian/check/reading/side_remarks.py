@@ -58,7 +58,7 @@ _DEVIATION = re.compile(rf"\W{{0,6}}linear[^\W\d_]{{0,10}}+[^\n=]{{0,40}}{_OFF}"
 """Linearized about a position, with a letter for how far it is off: Linear, phi = phi_e + eta: …"""
 _GOES_ON = re.compile(r"(?<=[\w'’′])[ \t]*[-+−*/·][ \t]*[\w(\\]")
 """What makes a value a sum or a product: s = x - R theta."""
-_NEXT = re.compile(rf"[ \t]{{1,9}}(?P<name>{_NAME})(?![\w'’′])")
+_NEXT = re.compile(rf"[ \t]{{1,9}}(?P<name>{_NAME})(?![^\W²³]|['’′])")
 _HELD = re.compile(
     r"^\W{0,4}(?:(?:if|when|wenn|falls|si)\b[^.;:=\n]{1,60}?\b(?:fixed|fest|fixe)|"
     r"(?:if|when|wenn|falls|si|with|mit|for|für|pour|avec)\b[^.;:=\n]{1,60}?\b(?:held|locked|blocked|clamped|stopped|zero|"
@@ -72,8 +72,8 @@ _CUE = re.compile(
     r"f(?:ü|ue|[\\ ]?\"[{ ]?u[} ]?)r|sofern|mit|ohne|setzt|setze|si|pour|sans|avec)(?![^\W_])",
     re.IGNORECASE,
 )
-_TERM = re.compile(r"[-+*/^²'’′]|\w\(")
-"""What stands between a condition and the word that begins it only if a formula begins there."""
+_TERM = re.compile(r"[-+*/^²'’′:]|\w\(")
+"""What stands between a condition and the word that begins it only if a formula begins there: for ẍ: ẍ = x θ̇² + …"""
 _LABEL = re.compile(rf"[ \t(]*+{_NAME}[ \t]*(?:->|→|=)[ \t]*(?:{_SIMPLE})(?:[ \t]*[,;][^:=\n]{{1,60}})?[ \t]*:")
 """A condition in front of what holds under it: F = 0, small phi: …"""
 _ABSENT = re.compile(
