@@ -190,3 +190,11 @@ def test_an_equation_behind_the_acceleration_for_which_it_is_solved_is_judged(la
     assert told(f"{rows}{label} ẍ = -(m ḧ + K x)/(M + m)", SLIDE).right
     found = told(f"{rows}{label} ẍ = -(m ḧ + K x)/M", SLIDE)
     assert not found.right and found.first_wrong is not None and found.first_wrong.line.number == 3
+
+
+def test_a_force_without_an_index_is_that_of_the_only_coordinate_of_the_answer() -> None:
+    lines = "beta = -phi\nQ = {}\n(J + m r^2 sin(beta)^2) beta'' + m r^2 sin(beta) cos(beta) beta'^2"
+    lines += " - m g r sin(beta) = -tau"
+    assert told(lines.format("-tau"), BAR).right
+    found = told(lines.format("tau"), BAR)
+    assert not found.right and {f.line.number for f in found.findings if not f.status.right} == {2}

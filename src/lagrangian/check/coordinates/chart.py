@@ -25,6 +25,8 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
 
+_BARE = re.compile(r"[\s$]*\\?(?:Q|Ξ|Xi|p)[\s&]*=")
+"""A generalized force or a momentum without an index."""
 _NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QFp])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
 """A force or a momentum that is called by the number of its coordinate."""
 
@@ -82,7 +84,7 @@ def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[Answ
 
 def _names_of_quantities(lines: Sequence[AnsweredLine]) -> set[str]:
     """The coordinates for which an answer states a quantity."""
-    named = {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not is_numbered(x)}
+    named = {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not of_place(x)}
     return named | {key(found[1]) for line in lines if (found := _stated(line)) is not None}
 
 
@@ -103,7 +105,7 @@ def with_own_quantities(
     truth: Reference, lines: Sequence[AnsweredLine], own: OwnCoordinates | None
 ) -> tuple[AnsweredLine, ...]:
     """The lines, in which Q_z and p_z of a coordinate z of the answer's are no names that it defines, and Q_1 is that
-    of the coordinate in the first place."""
+    of the coordinate in the first place, as is Q alone of the only one."""
     if own is None:
         return tuple(lines)
     coordinates = [c.name for c in truth.model.coordinates]
@@ -115,7 +117,7 @@ def with_own_quantities(
         quantity = _stated(line)
         if quantity is not None and key(quantity[1]) in own.columns and stated[line.name] == 1:
             line = replace(line, kind=quantity[0], name=names.get(key(quantity[1]), quantity[1]))
-        elif is_numbered(line) and line.name in coordinates and key(line.name) not in own.columns:
+        elif of_place(line) and line.name in coordinates and key(line.name) not in own.columns:
             k = coordinates.index(line.name)
             place = own.order[k] if k < len(own.order) else ""
             line = replace(line, name=names.get(place, line.name))
@@ -131,6 +133,12 @@ def of_unknown(line: AnsweredLine) -> Text:
 def is_numbered(line: AnsweredLine) -> bool:
     """Whether a line states the force or the momentum of a coordinate that it calls by its number."""
     return line.kind in ("Xi", "p") and _NUMBERED.match(line.text) is not None
+
+
+def of_place(line: AnsweredLine) -> bool:
+    """Whether a line states the force or the momentum of a coordinate that it calls by its number, or of the only one
+    without its name, Q = …"""
+    return is_numbered(line) or (line.kind in ("Xi", "p") and _BARE.match(line.text) is not None)
 
 
 def _stated(line: AnsweredLine) -> tuple[str, str] | None:
