@@ -89,6 +89,10 @@ def part_of(truth: Reference, possible: Possible) -> tuple[str, int] | None:
     return None
 
 
+FORCES = 6
+"""The step of the generalized forces."""
+
+
 def of_derivative_of(
     truth: Reference,
     line: AnsweredLine,
@@ -103,6 +107,9 @@ def of_derivative_of(
     """
     if told and line.kind == "p":
         terms = of_differences(line, findings)
+        told = sorted(told, key=lambda m: m.step == FORCES)  # no force changes a momentum
+        if terms and told[0].step == FORCES:
+            return [terms[0], *told], tuple(others)
         return [*([_with_slip(told[0], terms[0])] if terms else told[:1]), *told[1:]], tuple(others)
     if told and line.kind == "D":
         said = [in_dissipation(m) for m in told]

@@ -19,12 +19,24 @@ from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there
 from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.model import time
 from lagrangian.page.formula import text
 
 COUNTING = ("element_forgotten", "gravity_forgotten", "translation_forgotten", "rotation_forgotten", "element_twice")
 """Names of mistakes by which one of several equal bodies counts no time or twice."""
 HALF = ("half_forgotten", "spring_half_forgotten")
 """Names of mistakes by which there is no ½ in an energy."""
+OF_LETTERS = (
+    "not_squared",
+    "squared",
+    "lost",
+    "letter",
+    "exchanged",
+    "factor_missing",
+    "divided_by",
+    "divisor_missing",
+)
+"""Names of mistakes in the powers of letters and rates."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 NOT = ", not "
 """What stands between what is right and what is written."""
@@ -91,6 +103,8 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     if (blamed := _BLAMES.match(said)) is not None:
         own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
         return bool(own) and all(f.status.right for f in own)
+    if _is_of_right_slope(mistake, verdict) or _is_of_numbers(mistake, verdict):
+        return True
     if mistake.name in HALF and any(_has_its_half(f, d) for f, d in _differing(mistake, verdict)):
         return True
     if (
@@ -100,6 +114,27 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     ):
         return True  # which of several equal bodies moves otherwise than the others is written nowhere
     return _is_of_right_quantity(said, verdict) or (is_of_what_is_there(mistake) and _only_lacks(mistake, verdict))
+
+
+def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether V is said to be wrong beside right ∂ℒ/∂ξ of all coordinates whose equations are wrong."""
+    roots = {f.coordinate for f in verdict.findings if f.line.kind == "equation" and _is_root(f)}
+    right = {f.line.name for f in verdict.findings if f.line.kind == "slope" and f.status.right}
+    others = any(_is_root(f) and f.line.kind != "equation" for f in verdict.findings)
+    return mistake.step == 3 and bool(roots) and not others and roots <= right
+
+
+def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a power or a letter is said to be wrong where one number of an equation without parameters is."""
+    wrong = [f for f in verdict.findings if _is_root(f)]
+    differing = [d for f in wrong for d in f.differences]
+    if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
+        return False
+    return not any(x.free_symbols - {time} for f in wrong for x in [f.line.expr])
+
+
+def _is_root(finding: Finding) -> bool:
+    return finding.status is Status.WRONG and not finding.follows
 
 
 def _has_its_half(finding: Finding, difference: TermDifference) -> bool:

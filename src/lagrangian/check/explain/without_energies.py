@@ -33,6 +33,8 @@ _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-
 _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
 """The names of energies, and of parts of them."""
 _IN = re.compile(r"(?P<link>,| in|^In) (?P<name>T\*|V)(?=[.:,; ]|$)")
+_LOST = re.compile(r"(?P<first>[A-Z])(?P<rest>(?:article|igid body|isc|ody|ass)[^.]{0,80}) is missing in T\*\.")
+"""A body of which T* has nothing."""
 _PRODUCTS = re.compile(r"(?P<the>[Tt])he products of different rates in (?:the kinetic energy|½mv²) of ")
 _OF = re.compile(
     r"(?<![½\w])(?P<the>[Tt])he (?:energy|kinetic energy(?= of the (?:rotation|translation))) of "
@@ -66,6 +68,8 @@ def _is_linear(expr: sp.Expr) -> bool:
 def _said(mistake: Mistake, silent: set[str]) -> Text:
     """What was done, without the names of energies that are ``silent``."""
     joined = list(_joined(mistake.what))
+    if "T*" in silent and len(joined) == 1 and (lost := _LOST.fullmatch(str(joined[0]))) is not None:
+        return text(f"The inertia of {lost['first'].lower()}{lost['rest']} is missing.")  # its weight may be there
 
     def without(match: re.Match[str]) -> str:
         if match["name"] not in silent:

@@ -49,6 +49,7 @@ from lagrangian.check.reading.programs.sessions import without_prompts, without_
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.programs.templates import with_templates_applied
+from lagrangian.check.reading.prose.leading_words import without_leading_words
 from lagrangian.check.reading.prose.relaxed import without_relaxed
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
@@ -77,6 +78,8 @@ from lagrangian.check.reading.unit_checks import without_unit_checks, without_un
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
 
+_STAR_BELOW = re.compile(r"_(?:\\(?P<sign>ast|star)(?![A-Za-z])|\{\\(?P<within>ast|star)\})")
+"""An index that is a star, in LaTeX: J_\\ast."""
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
 _DEGREES = re.compile(
@@ -101,6 +104,7 @@ _ROUND_BY_TIME = re.compile(
 def _copied(text: str) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
     plain = without_copying(without_proved(without_star_math(TracedText(text))))
+    plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     return with_drawn_pieces(with_tall_brackets(plain))
 
 
@@ -140,7 +144,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text) if LATEX.search(text) else with_general_form(_copied(text), len(moving))
+    copied = _copied(text)
+    copied = copied if LATEX.search(text) else with_general_form(without_leading_words(copied, taken), len(moving))
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
