@@ -31,8 +31,8 @@ def with_certain_terms(verdict: Verdict) -> Verdict:
 
 
 def _without_turned_rows(verdict: Verdict) -> Verdict:
-    """The verdict without the terms of an equation that was compared with its negative, or with a multiple: ẍ, for which
-    it is solved, is not what has the wrong sign, and not all but one term count half."""
+    """The verdict without the terms of an equation that was compared with its negative, or with a multiple: ẍ, for
+    which it is solved, is not what has the wrong sign, and not all but one term count half."""
     findings = tuple(replace(f, differences=()) if _is_turned(f) else f for f in verdict.findings)
     return replace(verdict, findings=findings) if verdict.mistakes and findings != verdict.findings else verdict
 

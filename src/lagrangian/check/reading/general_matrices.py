@@ -1,18 +1,20 @@
-"""The general form of the equations in matrices whose entries, rows or columns stand elsewhere in an answer.
+r"""The general form of the equations in matrices whose entries, rows or columns stand elsewhere in an answer.
 
 M(q) q'' + n(q, q') = f(q, q', τ)   with M11 = a, M12 = b, …, n1 = c, … and f = [d; e]
                                     [M11, M12; M21, M22]*q'' + [n1; n2] = f
 Row 1 of M: [a, b]                  M = [a, b; c, d]
 | M₁₁ | a |                         M₁₁ = a
+\mathbf{M}(q)\ddot{q} + h(q, \dot q) = 0   with M_{11} = a, …
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.records import dataclass
 
 MOST = 6
 """The most rows of a matrix that is given so, and the most general forms of an answer that are looked at."""
@@ -22,67 +24,187 @@ _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|){1,9}[ \t]*")
 _LOWERED = str.maketrans("₁₂₃₄₅₆", "123456")
 _INDEX = r"_?\{?[1-6₁-₆]{1,2}\}?"
 _ENTRY = rf"[A-Za-z]{_INDEX}"
-_ENTRIES = re.compile(rf"{_ENTRY}(?:[ \t]*=[ \t]*{_ENTRY}){{0,3}}")
+_ENTRIES = re.compile(rf"{_ENTRY}(?:[ \t]*+=[ \t]*+{_ENTRY}){{0,3}}")
 _ROW = re.compile(
     r"^[ \t]*(?:(?:row|Zeile)[ \t]+(?P<after>[1-6])|(?P<before>[1-6])(?:st|nd|rd|th|\.)[ \t]+(?:row|Zeile))[ \t]+"
-    r"(?:of|von)[ \t]+(?P<name>[A-Z])[ \t]*[:=][ \t]*[\[(](?P<row>[^\[\]\n]{1,600})[\])][ \t]*[,;.]?[ \t]*$",
+    r"(?:of|von)[ \t]+(?P<name>[A-Z])[ \t]*[:=][ \t]*[\[(](?P<row>[^\[\]\n]{1,600})[\])][ \t]*+[,;.]?[ \t]*+$",
     re.MULTILINE | re.IGNORECASE,
 )
-_OF = r"(?:\((?:[^\W\d_][\w'’′\u0307\u0308]{0,8}[ \t]*,?[ \t]*){1,6}\))?"
-"""What a matrix depends on, which says nothing: (q, q')."""
-_COLUMN = r"(?P<column>[qxzξ])[ \t]*(?:''|″|’’|′′|\u0308)"
-_TERM = rf"[\[{{]?[A-Za-z][\]}}]?{_OF}"
-_GENERAL = re.compile(
-    rf"(?<![\w'’′)+*/^=-])(?P<matrix>[A-Z]|[\[{{][A-Z][\]}}]){_OF}[ \t]*[·*]?[ \t]*(?:\{{[ \t]*)?{_COLUMN}(?:[ \t]*\}})?"
-    rf"(?P<more>(?:[ \t]*[-+−][ \t]*{_TERM}){{0,3}})[ \t]*=[ \t]*(?P<right>{_TERM}(?:[ \t]*[-+−][ \t]*{_TERM}){{0,3}}|0)"
-    r"(?=[ \t]*(?:$|[,;.:][ \t]*(?:$|[ \t])|[ \t](?:with|where|mit|wobei)\b))",
-    re.MULTILINE,
+_SIGN = r"[ \t]{0,9}[-+−][ \t]{0,9}"
+
+
+@dataclass(frozen=True, slots=True)
+class _Notation:
+    """How an answer writes this form: what a matrix depends on, (q, q'), which says nothing; a name, the column of
+    accelerations and that of the coordinates or their rates; a column that is written out; what stands in front of the
+    form and behind it; how the definition of a name begins that is written out; and how the reader is given a matrix,
+    its rows and the accelerations."""
+
+    of: str
+    name: str
+    acceleration: str
+    rates: str
+    written_out: str
+    front: str
+    behind: str
+    equals: str
+    opened: str
+    matrix: tuple[str, str, str, str]
+    derived: str
+
+    @property
+    def term(self) -> str:
+        """A column: its name, with what it depends on, or a matrix times the coordinates, or what is written out."""
+        return rf"(?:{self.written_out}|{self.name.replace('NAME', '[A-Za-z]')}{self.of}(?:{self.rates})?)"
+
+    def general(self) -> re.Pattern[str]:
+        """The form: M q'' + n = f."""
+        matrix, more = self.name.replace("NAME", "(?P<matrix>[A-Z])"), rf"(?:{_SIGN}{self.term})"
+        return re.compile(
+            rf"{self.front}{matrix}{self.of}{self.acceleration}(?P<more>{more}{{0,3}})[ \t]{{0,9}}{self.equals}[ \t]{{0,9}}"
+            rf"(?P<right>{_ZERO}|[-−]?[ \t]{{0,3}}{self.term}{more}{{0,3}}){self.behind}",
+            re.MULTILINE,
+        )
+
+    def part(self) -> re.Pattern[str]:
+        """One of the columns that are added up."""
+        name = self.name.replace("NAME", "(?P<name>[A-Za-z])")
+        return re.compile(
+            rf"(?P<sign>[-+−]?)[ \t]{{0,9}}(?:(?P<whole>{self.written_out})|{name}{self.of}(?P<rates>{self.rates})?)"
+        )
+
+    def written(self, rows: Sequence[Sequence[str]]) -> str:
+        """A matrix of these rows."""
+        begin, gap, row, end = self.matrix
+        return begin + row.join(gap.join(x) for x in rows) + end
+
+
+_ZERO = r"(?:[\[{]?0[\]}]?(?!\w)|\\(?:mathbf|boldsymbol|bm|vec)[ ]?\{?[ ]?0[ ]?\}?)"
+_PLAIN = _Notation(
+    of="(?:\\([\\w'’′\u0307\u0308 \\t,]{1,60}+\\))?",
+    name=r"[\[{]?NAME[\]}]?",
+    acceleration="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[ \\t]?(?P<column>[qxzξ])[ \\t]?(?:''|″|’’|′′|\u0308)[ \\t]?\\}?",
+    rates="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[qxzξ](?:['’′\u0307]|(?![\\w'’′\u0307\u0308]))\\}?",
+    written_out=r"\[[^\[\]\n=]{1,200}[,;][^\[\]\n=]{1,200}\](?:\^T|ᵀ)?",
+    front=r"(?<![\w'’′)+*/^=-])",
+    behind=r"(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|[ \t](?:with|where|mit|wobei)\b))",
+    equals="=",
+    opened=r"\[",
+    matrix=("[", ", ", "; ", "]"),
+    derived="*{}''",
 )
-_PART = re.compile(rf"(?P<sign>[-+−]?)[ \t]*[\[{{]?(?P<name>[A-Za-z])[\]}}]?{_OF}")
+_BOLD = r"(?:\\(?:mathbf|boldsymbol|bm|mathrm|vec|underline)[ ]?)"
+_GAP = r"(?:[ \t]|\\[,;!: ]){0,4}+"
+_LETTER = r"(?:\\xi|[qxz])(?![A-Za-z])"
+_BRACES = rf"{_BOLD}?\{{?[ ]?{_BOLD}?\{{?[ ]?"
+_LATEX = _Notation(
+    of=rf"(?:{_GAP}(?:\\left)?\([\w\\{{}}, \t'’′;]{{1,120}}?(?:\\right)?\))?",
+    name=rf"(?:{_BOLD}\{{?[ ]?)?(?<![A-Za-z\\])NAME(?![A-Za-z_])(?:[ ]?\}})?",
+    acceleration=rf"{_GAP}(?=\\ddot|[^=+-]{{1,24}}'')(?:\\ddot[ ]?)?{_BRACES}(?P<column>{_LETTER})[ ]?\}}{{0,2}}(?:'')?",
+    rates=rf"{_GAP}(?:\\dot[ ]?)?{_BRACES}{_LETTER}[ ]?\}}{{0,2}}'?",
+    written_out=r"\\begin\{[bp]?matrix\}[^=\n]{1,200}?\\end\{[bp]?matrix\}",
+    front=r"(?<![\w'^)+*/=}-])",
+    behind=r"(?=[ \t]*+(?:$|[,;.]|\\[\])\\]|\\q?quad|\\end|\$|\\text))",
+    equals="&?=",
+    opened=r"\\begin\{[bpv]?matrix|\\left[(\[]",
+    matrix=(r"\begin{bmatrix}", " & ", r" \\ ", r"\end{bmatrix}"),
+    derived=r" \ddot{{{}}}",
+)
+_FORMS = {False: (_PLAIN, _PLAIN.general(), _PLAIN.part()), True: (_LATEX, _LATEX.general(), _LATEX.part())}
+_ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
 
 
-def with_general_form(written: TracedText, count: int) -> TracedText:
-    """Return an answer with this form in the entries that it gives, ``count`` a column; only if it gives all of them."""
-    if not 2 <= count <= MOST or not re.search(r"''|″|’’|′′|\u0308", written.text):
+def with_general_form(
+    written: TracedText, count: int, taken: Callable[[str], bool], notes: dict[str, None], *, latex: bool
+) -> TracedText:
+    """Return an answer with this form in the entries that it gives, ``count`` a column, of which none is ``taken`` by
+    the system; only if it gives all of them."""
+    if not 2 <= count <= MOST or not _ACCELERATION.search(written.text):
         return written
-    written = _with_rows(_with_entries(written), count)
-    edits: list[Edit] = []
-    for match in islice(_GENERAL.finditer(written.text), MOST):
-        matrix = match["matrix"].strip("[]{}")
-        square = _given(matrix, written.text, count, square=True)
-        sides = [_side(match[x], written.text, count) for x in ("more", "right")]
-        if square is None or None in sides:
-            continue
-        start = "\n" if written.text[written.text.rfind("\n", 0, match.start()) + 1 : match.start()].strip() else ""
-        edits.append((*match.span(), f"{start}{square}*{match['column']}''{sides[0]} = {sides[1]}\n"))
-    return written.edited(edits)
+    if not latex:
+        written = _with_rows(_with_entries(written), count)
+    form = _Form(written.text, count, taken, latex=latex)
+    return written.edited(list(form.edits(notes)))
 
 
-def _side(side: str, text: str, count: int) -> str | None:
-    """Columns that are added up on one side, each as its entries or by its name; None if one is not given."""
-    if side == "0":
-        return side
-    found: list[str] = []
-    for part in _PART.finditer(side):
-        column = _given(part["name"], text, count, square=False)
-        if column is None:
+class _Form:
+    """The general form in an answer, with what the answer gives of its matrices and columns."""
+
+    def __init__(self, text: str, count: int, taken: Callable[[str], bool], *, latex: bool) -> None:
+        self.text, self.count, self.taken, self.latex = text, count, taken, latex
+        self.notation, self.general, self.part = _FORMS[latex]
+        self.symmetric: list[str] = []
+        """What is said of entries that only symmetry gives."""
+
+    def edits(self, notes: dict[str, None]) -> Iterator[Edit]:
+        """The forms, written out."""
+        for match in islice(self.general.finditer(self.text), MOST):
+            self.symmetric = []
+            square = self._square(match["matrix"])
+            sides = [self._side(match[x]) for x in ("more", "right")]
+            if square is None or None in sides or not _is_closed(match.group()):
+                continue
+            before = self.text[self.text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
+            start, end = ("", "") if self.latex else ("\n" if before else "", "\n")
+            derived = self.notation.derived.format(match["column"])
+            notes.update(dict.fromkeys(self.symmetric))
+            yield *match.span(), f"{start}{square}{derived}{sides[0]} = {sides[1]}{end}"
+
+    def _side(self, side: str) -> str | None:
+        """Columns that are added up on one side, each as its entries or by its name; None if one is not given."""
+        if re.fullmatch(_ZERO, side.strip()):
+            return "0"
+        if self.part.sub("", side).strip():
             return None
-        found.append(f" {part['sign']} {column}".replace("−", "-") if part["sign"] else column)
-    return "".join(found)
+        found: list[str] = []
+        for part in self.part.finditer(side):
+            column = part["whole"] or (self._square if part["rates"] else self._column)(part["name"])
+            if column is None:
+                return None
+            times = "" if self.latex or not part["rates"] else "*"
+            rates = f"{times}{(part['rates'] or '').strip(' *·')}"  # C q'
+            found.append(f" {part['sign'].replace('−', '-')} {column}{rates}" if part["sign"] else f"{column}{rates}")
+        return "".join(found)
+
+    def _entries(self, name: str) -> dict[str, str]:
+        """The entries of a name that an answer gives, as it writes them."""
+        found = {
+            m.translate(_LOWERED)
+            for m in re.findall(rf"(?<![\w\\])({name}{_INDEX})[ \t]{{0,9}}{self.notation.equals}(?!=)", self.text)
+        }
+        return {re.sub(r"[_{}]", "", m)[len(name) :]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
+
+    def _square(self, name: str) -> str | None:
+        """A matrix, by its entries, for which small letters may stand, too, or by its name; None if it is not given."""
+        numbers = [str(k + 1) for k in range(self.count)]
+        for written in (name, name.lower()):
+            plain = self._entries(written)
+            for i, j in ((i, j) for i in numbers for j in numbers if i + j not in plain and j + i in plain):
+                self.symmetric.append(f"{written}{i}{j} was read as {written}{j}{i}: the matrix is symmetric.")
+            rows = [[plain.get(i + j) or plain.get(j + i) for j in numbers] for i in numbers]
+            if all(map(all, rows)):
+                return self.notation.written([[str(x) for x in row] for row in rows])
+            self.symmetric = []
+        return self._whole(name)
+
+    def _column(self, name: str) -> str | None:
+        numbers = [str(k + 1) for k in range(self.count)]
+        plain = self._entries(name)
+        if all(k in plain for k in numbers):
+            return self.notation.written([[plain[k]] for k in numbers])
+        return self._whole(name)
+
+    def _whole(self, name: str) -> str | None:
+        """The name as it is written where it is given a matrix."""
+        named = self.notation.name.replace("NAME", name)
+        given = rf"(?<![\w\\])(?P<named>{named}){self.notation.of}[ \t]{{0,9}}{self.notation.equals}[ \t\n]{{0,9}}"
+        match = re.search(rf"{given}(?:{self.notation.opened})", self.text)
+        return None if match is None else match["named"]
 
 
-def _given(name: str, text: str, count: int, *, square: bool) -> str | None:
-    """A matrix, or a column, by its entries or by its name, as an answer gives it; None if it does not."""
-    numbers = [str(k + 1) for k in range(count)]
-    entries = {m.translate(_LOWERED) for m in re.findall(rf"(?<![\w\\])({name}{_INDEX})[ \t]*=(?!=)", text)}
-    plain = {re.sub(r"[_{}]", "", m): m for m in entries}
-    rows = [[plain.get(f"{name}{i}{j}") for j in numbers] for i in numbers] if square else []
-    column = [plain.get(f"{name}{i}") for i in numbers]
-    if square and all(map(all, rows)):
-        return "[" + "; ".join(", ".join(map(str, row)) for row in rows) + "]"
-    if not square and all(column):
-        return "[" + "; ".join(map(str, column)) + "]"
-    return name if re.search(rf"(?<![\w\\]){name}{_OF}[ \t]*=[ \t\n]*\[", text) else None
+def _is_closed(written: str) -> bool:
+    """Whether no brace or bracket is open in a text."""
+    return all(written.count(x) == written.count(y) for x, y in ("{}", "[]", "()"))
 
 
 def _with_entries(written: TracedText) -> TracedText:
@@ -90,8 +212,10 @@ def _with_entries(written: TracedText) -> TracedText:
     edits: list[Edit] = []
     for match in islice(_TABLE.finditer(written.text), MOST):
         lines = match.group().rstrip("\n").split("\n")
+        titled = next((k for k, line in enumerate(lines[:2]) if _RULE.fullmatch(line)), 0)
         cells = [[x.strip().strip("$`*") for x in line.strip()[1:-1].split("|")] for line in lines]
         body = [row for row, line in zip(cells, lines, strict=True) if _RULE.fullmatch(line) is None and any(row)]
+        body = body[1:] if titled == 1 else body
         if body and all(len(row) == 2 and _ENTRIES.fullmatch(row[0]) for row in body):
             edits += _statements(match.start(), lines, cells)
     return written.edited(edits)

@@ -144,8 +144,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
-    copied = copied if LATEX.search(text) else with_general_form(without_leading_words(copied, taken), len(moving))
+    copied = _copied(text) if LATEX.search(text) else without_leading_words(_copied(text), taken)
+    copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
