@@ -44,6 +44,8 @@ EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
 _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
 """How words begin that blame a line."""
+_OF_ENERGY = re.compile(r"\b(?:in V|energy|height|position)\b")
+"""What words on V say, and words on an equation do not."""
 _TAKEN = re.compile(r"The (?P<what>[^:,.]{1,60} of [^:,]{1,60}'[^']{1,60}') (?:is|are) taken as ")
 """How words begin that blame a quantity."""
 
@@ -121,7 +123,8 @@ def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:
     roots = {f.coordinate for f in verdict.findings if f.line.kind == "equation" and _is_root(f)}
     right = {f.line.name for f in verdict.findings if f.line.kind == "slope" and f.status.right}
     others = any(_is_root(f) and f.line.kind != "equation" for f in verdict.findings)
-    return mistake.step == 3 and bool(roots) and not others and roots <= right
+    said = _OF_ENERGY.search(str(mistake.what)) is not None
+    return mistake.step == 3 and said and bool(roots) and not others and roots <= right
 
 
 def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
