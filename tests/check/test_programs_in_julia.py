@@ -169,3 +169,38 @@ def test_one_function_of_time_whose_name_may_be_a_force_is_the_input_with_a_note
     assert pole.check(two, hint=0).right
     assert not pole.check(two.replace("push(t) - b", "push(t) + motor(t) - b"), hint=0).right
     assert not pole.check(two.replace("push(t) - b", "push(t) - b").replace("m*g*l", "motor(t) + m*g*l"), hint=0).right
+
+
+SEVERAL = """function pole!(du, u, p, t)
+    x, θ, v, ω = u
+    M, m, l, J, b, g = p
+    s, c = sin(θ), cos(θ)
+    D = (M + m)*(J + m*l^2) - (m*l*c)^2
+    f1, f2 = F(t) - b*v + m*l*s*ω^2, m*g*l*s
+    du[1] = v; du[2] = ω
+    du[3] = ((J + m*l^2)*f1 - m*l*c*f2)/D
+    du[4] = ((M + m)*f2 - m*l*c*f1)/D
+end
+"""
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        SEVERAL,
+        SEVERAL.replace("s, c = sin(θ), cos(θ)", "c, s = cos(θ), sin(θ)"),
+        SEVERAL.replace("s, c = sin(θ), cos(θ)", "s, c = sin(θ), cos(θ)  # both"),
+        SEVERAL.replace("s, c = sin(θ), cos(θ)", "s, c, n = sin(θ), cos(θ), 2"),
+        SEVERAL.replace("s, c = sin(θ), cos(θ)", "s , c  =  sin(1.0*(θ)), cos(θ)"),
+        SEVERAL.replace("s, c = sin(θ), cos(θ)", "s, c = sin(u[2]), cos(u[2])"),
+    ],
+)
+def test_several_values_at_once_are_given_in_their_order(program: str) -> None:
+    pole = derivation("cart-pole")
+    assert pole.check(program).right
+    assert not pole.check(program.replace("m*g*l", "-m*g*l"), hint=0).right
+
+
+@pytest.mark.parametrize("several", ["s, c = cos(θ), sin(θ)", "c, s = sin(θ), cos(θ)", "s, c = sin(θ), sin(θ)"])
+def test_several_values_in_another_order_are_wrong(several: str) -> None:
+    assert not derivation("cart-pole").check(SEVERAL.replace("s, c = sin(θ), cos(θ)", several), hint=0).right

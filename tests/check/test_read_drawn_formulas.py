@@ -185,3 +185,37 @@ def test_what_shows_an_equation_by_its_name_and_rules_with_words_are_no_part_of_
     written = SCRIPT.format(shown, between.join(pieces))
     assert "↪" in written
     assert derivation("cart-pole").check(written, hint=0).right == (sign == 1)
+
+
+TYPED = """        {over}
+x'' = {bar}
+        {under}
+
+theta'' = ((M + m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*x' + m*l*theta'^2*sin(theta)))/D
+D = (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2
+"""
+OVER = "(J + m*l^2)*(F - b*x' + m*l*theta'^2*sin(theta)) - m^2*g*l^2*sin(theta)*cos(theta)"
+
+
+@pytest.mark.parametrize("bar", ["-" * 20, "-" * len(OVER), "─" * 90])
+@pytest.mark.parametrize("under", [" " * 12 + "D", "     (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2"])
+def test_a_fraction_over_three_lines_need_not_be_as_wide_as_its_bar(bar: str, under: str) -> None:
+    assert right(TYPED.format(over=OVER, bar=bar, under=under))
+    for over in (OVER.replace(" - m^2*g", " + m^2*g"), OVER.replace("- b*x'", "+ b*x'"), OVER.replace("F ", "2*F ")):
+        assert over != OVER and not right(TYPED.format(over=over, bar=bar, under=under))
+
+
+@pytest.mark.parametrize(
+    ("over", "under"),
+    [
+        (OVER + ")", " " * 12 + "D"),
+        (OVER, " " * 12 + "D)"),
+        (OVER, " " * 30 + "D"),
+        ("a = " + OVER, " " * 12 + "D"),
+    ],
+)
+def test_three_lines_that_are_no_fraction_are_not_taken_for_a_right_one(over: str, under: str) -> None:
+    try:
+        assert not right(TYPED.format(over=over, bar="-" * 20, under=under))
+    except ParseError:
+        pass

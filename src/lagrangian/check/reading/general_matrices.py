@@ -87,7 +87,7 @@ _PLAIN = _Notation(
     rates="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[qxzξ](?:['’′\u0307]|(?![\\w'’′\u0307\u0308]))\\}?",
     written_out=r"\[[^\[\]\n=]{1,200}[,;][^\[\]\n=]{1,200}\](?:\^T|ᵀ)?",
     front=r"(?<![\w'’′)+*/^=-])",
-    behind=r"(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|[ \t](?:with|where|mit|wobei)\b))",
+    behind=r"(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|(?<=[ \t])(?:with|where|mit|wobei)\b))",
     equals="=",
     opened=r"\[",
     matrix=("[", ", ", "; ", "]"),
@@ -100,7 +100,9 @@ _BRACES = rf"{_BOLD}?\{{?[ ]?{_BOLD}?\{{?[ ]?"
 _LATEX = _Notation(
     of=rf"(?:{_GAP}(?:\\left)?\([\w\\{{}}, \t'’′;]{{1,120}}?(?:\\right)?\))?",
     name=rf"(?:{_BOLD}\{{?[ ]?)?(?<![A-Za-z\\])NAME(?![A-Za-z_])(?:[ ]?\}})?",
-    acceleration=rf"{_GAP}(?=\\ddot|[^=+-]{{1,24}}'')(?:\\ddot[ ]?)?{_BRACES}(?P<column>{_LETTER})[ ]?\}}{{0,2}}(?:'')?",
+    acceleration=(
+        rf"{_GAP}(?=\\ddot|[^=+-]{{1,24}}'')(?:\\ddot[ ]?)?{_BRACES}(?P<column>{_LETTER})[ ]?\}}{{0,2}}(?:'')?"
+    ),
     rates=rf"{_GAP}(?:\\dot[ ]?)?{_BRACES}{_LETTER}[ ]?\}}{{0,2}}'?",
     written_out=r"\\begin\{[bp]?matrix\}[^=\n]{1,200}?\\end\{[bp]?matrix\}",
     front=r"(?<![\w'^)+*/=}-])",

@@ -21,7 +21,10 @@ _ARROW = re.compile(rf"(?:\((?P<given>[\w ,]{{1,60}}+)\)|(?P<one>\b{_NAME}))[ \t
 _PARAMETERS = re.compile(
     rf"^[ \t]*+(?:\([ \t]*+;[^()=\n]++\)|@unpack\b[^=\n]++)[ \t]*+=(?!=)[ \t]*+{_NAME}[ \t]*+$", re.MULTILINE
 )
-_VALUE = r"(?:[^\n%()\[\],]|\([^\n%()\[\]]{0,200}\))*+"
+_INNER = r"\((?:[^\n%()\[\]]|\([^\n%()\[\]]{0,80}+\)){0,200}+\)"
+_VALUE = rf"(?:[^\n%()\[\],]|{_INNER})*+"
+_BETWEEN = re.compile(rf"{_INNER}|,")
+"""The commas between values, and what stands in brackets, with commas of its own: atan(a, b)."""
 _UNPACKED = re.compile(
     rf"^(?P<indent>[ \t]*+)(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME})++)[ \t]*+=(?!=)"
     rf"(?P<listed>{_VALUE}(?:,{_VALUE})++)?",
@@ -140,7 +143,8 @@ def _part(match: re.Match[str]) -> str:
 
 def _unpacked(match: re.Match[str]) -> str:
     """Several names on the left of one list: [a, b] = [1; 2]."""
-    listed = f" [{match['listed'].replace(',', ';')}]" if match["listed"] else ""
+    values = _BETWEEN.sub(lambda m: ";" if m.group() == "," else m.group(), match["listed"] or "")
+    listed = f" [{values}]" if match["listed"] else ""
     return f"{match['indent']}[{match['names']}] ={listed}"
 
 

@@ -239,8 +239,8 @@ def _plain_fraction(lines: Sequence[str]) -> str | None:
     over, under = lines[0], lines[2]
     if any(not x.startswith("  ") or "=" in x or not x.strip() or not _balanced(x) for x in (over, under)):
         return None
-    middle, left = (bar.start("bar") + bar.end("bar")) / 2, bar.start("bar") - OVERHANG
-    if any(not left <= len(x) - len(x.lstrip()) < middle < len(x.rstrip()) for x in (over, under)):
+    left, right = bar.start("bar") - OVERHANG, bar.end("bar")
+    if any(not left <= len(x) - len(x.lstrip()) < right or len(x.rstrip()) <= bar.start("bar") for x in (over, under)):
         return None
     return f"{bar['side']} = ({over.strip()})/({under.strip()})"
 
