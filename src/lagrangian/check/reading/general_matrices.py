@@ -61,7 +61,8 @@ class _Notation:
         """The form: M q'' + n = f."""
         matrix, more = self.name.replace("NAME", "(?P<matrix>[A-Z])"), rf"(?:{_SIGN}{self.term})"
         return re.compile(
-            rf"{self.front}{matrix}{self.of}{self.acceleration}(?P<more>{more}{{0,3}})[ \t]{{0,9}}{self.equals}[ \t]{{0,9}}"
+            rf"{self.front}{matrix}{self.of}{self.acceleration}(?P<more>{more}{{0,3}})"
+            rf"[ \t]{{0,9}}{self.equals}[ \t]{{0,9}}"
             rf"(?P<right>{_ZERO}|[-−]?[ \t]{{0,3}}{self.term}{more}{{0,3}}){self.behind}",
             re.MULTILINE,
         )

@@ -161,8 +161,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
-    indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    relaxed = without_legend(without_references(indexed))
+    relaxed = without_legend(without_references(with_index_of_time(session, lambda name: key(name) in moving, taken)))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
