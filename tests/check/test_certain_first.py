@@ -198,3 +198,9 @@ def test_a_force_without_an_index_is_that_of_the_only_coordinate_of_the_answer()
     assert told(lines.format("-tau"), BAR).right
     found = told(lines.format("tau"), BAR)
     assert not found.right and {f.line.number for f in found.findings if not f.status.right} == {2}
+
+
+def test_a_number_and_a_name_in_brackets_behind_a_factor_are_no_number_of_an_equation() -> None:
+    assert told("2 (M + m) x'' + 2 m h'' = -K (2x)\nm x'' + m h'' = F - k h", SLIDE).right
+    assert not told("(M + m) x'' + m h'' = -K (2x)\nm x'' + m h'' = F - k h", SLIDE).right
+    assert told("(M + m) x'' + m h'' + K x = 0  (2a)\nm x'' + m h'' + k h = F  (2b')", SLIDE).right

@@ -81,13 +81,14 @@ def _unrefuted(verdict: Verdict) -> Verdict:
 def _once(mistakes: Sequence[Mistake], verdict: Verdict) -> Iterator[Mistake]:
     """The mistakes without those that say again what is not what it should be, ẏ is −r φ̇ sin φ, not −r φ̇ cos φ, and
     without those in an equation that only follows from wrong lines."""
-    told = list[tuple[object, object] | None]()
+    told = set[object]()
     for k, m in enumerate(mistakes):
         parts = m.what.parts
         pair = next(((a, b) for a, x, b in zip(parts, parts[1:], parts[2:], strict=False) if x == NOT), None)
-        if k and ((pair is not None and pair in told) or _only_follows(m, verdict)):
+        said = {str(m.what), pair} - {None}
+        if k and (said & told or _only_follows(m, verdict)):
             continue
-        told.append(pair)
+        told |= said
         yield m
 
 

@@ -120,6 +120,8 @@ _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
 _ROMAN = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII"]
 _ORDERS = (_ROMAN, list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
 """How equations are numbered in letters."""
+_FACTOR_BEHIND = re.compile(rf"(?<=[\w\u0307\u0308)'’′])[ ]?\(\s?\d{{1,3}}[ ]?(?P<name>[a-z])['’′]{{0,2}}\s?\){_END}")
+"""A number and a name in brackets right behind a factor: (2y')."""
 _FAR_BEHIND = re.compile(
     rf"(?<![ \t])(?:[ ]{{2}}|[ ]?\t)[ \t]*+[(\[]\s*+(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*+[)\]]{_END}"
 )
@@ -343,8 +345,10 @@ def _is_factor(match: re.Match[str], words: Words) -> bool:
     return letter is not None and not letter[0].isdigit() and words.is_name(letter)
 
 
-def behind(line: str, numbers: Numbering) -> str:
-    """Blank out the number of an equation after it, a full stop and a linking word."""
+def behind(line: str, numbers: Numbering, words: Words) -> str:
+    """Blank out the number of an equation after it, a full stop and a linking word; d (2y') ends with a factor."""
+    if (factor := _FACTOR_BEHIND.search(line)) is not None and words.is_name(factor["name"]):
+        return line
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
     if numbers.lettered and (match := _LETTER_BEHIND.search(line)) is not None:

@@ -154,9 +154,9 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
                 rows.insert(-1, AnswerRow(open_row.start + at, head[at:]))
                 head = head[:at].rstrip(";, \t")
             gap = offset - open_row.start - len(head)
-            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _ended(head, bare, numbers))
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _ended(head, bare, numbers, words))
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
-            rows.append(AnswerRow(offset, _ended("", stripped, numbers)))
+            rows.append(AnswerRow(offset, _ended("", stripped, numbers, words)))
             open_row = None if is_sentence(stripped, words) else rows[-1]
         offset += len(line)
     rows = [AnswerRow(row.start, opened_list(row.text)) for row in rows]
@@ -175,9 +175,9 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     ]
 
 
-def _ended(head: str, line: str, numbers: Numbering) -> str:
+def _ended(head: str, line: str, numbers: Numbering, words: Words) -> str:
     """A line, which goes on from ``head``, without what stands behind it; the comma in a list that goes on is kept."""
-    bare, text = behind(line, numbers), line.rstrip()
+    bare, text = behind(line, numbers, words), line.rstrip()
     return f"{bare[: len(text) - 1]}," if text[-1:] == "," and open_brackets(head + bare) > 0 else bare
 
 
