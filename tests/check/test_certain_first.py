@@ -204,3 +204,11 @@ def test_a_number_and_a_name_in_brackets_behind_a_factor_are_no_number_of_an_equ
     assert told("2 (M + m) x'' + 2 m h'' = -K (2x)\nm x'' + m h'' = F - k h", SLIDE).right
     assert not told("(M + m) x'' + m h'' = -K (2x)\nm x'' + m h'' = F - k h", SLIDE).right
     assert told("(M + m) x'' + m h'' + K x = 0  (2a)\nm x'' + m h'' + k h = F  (2b')", SLIDE).right
+
+
+def test_an_answer_of_energies_and_forces_says_which_energy_it_has_not() -> None:
+    """T* and Ξ alone are right as far as they go: V is not taken for stated, also where one spring's energy is."""
+    T, Xi = "T = 1/2 M x'^2 + 1/2 m (x' + h')^2", "Q_x = 0\nQ_h = F"
+    for V, silent in (("V = 1/2 K x^2 + 1/2 k h^2", False), ("V1 = 1/2 K x^2", True), ("", True)):
+        notes = [str(x) for x in told(f"{T}\n{V}\n{Xi}", SLIDE).notes]
+        assert any(x.startswith("No line states V") for x in notes) == silent, notes

@@ -38,7 +38,7 @@ from lagrangian.check.together import right_together
 from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
 from lagrangian.model import time
-from lagrangian.page.formula import Text, text
+from lagrangian.page.formula import Name, Text, text
 from lagrangian.records import dataclass
 
 REPEATED = 0.3
@@ -107,7 +107,7 @@ def judged_lines(
         findings = with_consequences(truth, findings)
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
-    return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
+    return Judged(status, found, comparison, (*_missing(truth, comparison), *_silent(truth, moved), *aside), motion)
 
 
 def _told_once(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
@@ -197,6 +197,20 @@ def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
             if i not in said:
                 notes.append(text("The equation of ", c.symbol, " is missing."))
     return tuple(notes)
+
+
+def _silent(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Text, ...]:
+    """Which energy no line of an answer states that has forces and the other energy, and no equation of motion."""
+    kinds = {x.kind for x in lines}
+    if "equation" in kinds or "L" in kinds or "Xi" not in kinds or not kinds & {"T", "V"}:
+        return ()
+    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
+    energies = (("T", Name("T*"), truth.T), ("V", Name("V"), truth.V))
+    return tuple(
+        text("No line states ", name, " as a whole, so it was not judged.")
+        for kind, name, energy in energies
+        if kind not in kinds and truth.expand(energy).has(*moving)
+    )
 
 
 # -- equations --------------------------------------------------------------------------------------------------------
