@@ -8,6 +8,8 @@ from __future__ import annotations
 import pytest
 from test_read_words_of_a_sentence import MOTION, crank
 
+import lagrangian as lg
+
 VALUE = "(J + m r² sin²φ) φ'"
 LATEX = (
     r"\[p_1 = \frac{\partial L}{\partial\dot\varphi} = (J + m r^2\sin^2\varphi)\dot\varphi\]"
@@ -35,3 +37,17 @@ def test_what_is_judged_by_its_value_is_not_said_to_be_not_judged(answer: str) -
 def test_what_has_no_value_is_said_to_be_not_judged() -> None:
     verdict = crank().check(f"p = ∂L/∂φ'\n{MOTION}")
     assert verdict.right and "'p = ∂L/∂φ'' was not judged" in verdict.to_text()
+
+
+def test_a_second_value_of_a_name_does_not_vanish() -> None:
+    """v² of one body is right, and that of another under the same name is told as not judged."""
+    s = lg.System("two on a line")
+    x, y = s.coordinates("x y")
+    m, n = s.parameters("m n")
+    s.particle(m, s.origin + (x, 0), name="cart")
+    s.particle(n, s.origin + (y, x), name="sled")
+    found = s.derive().check("cart: v² = x'²\nsled: v² = y'² + 2 x'²\nm x'' + n x'' = 0\nn y'' = 0")
+    assert found.right
+    assert [str(note) for note in found.notes if "another value" in str(note)] == [
+        "'v² = y'² + 2 x'²' was not judged: v has another value, too."
+    ]

@@ -218,3 +218,9 @@ def test_a_fraction_over_three_lines_need_not_be_as_wide_as_its_bar(bar: str, un
 def test_three_lines_that_are_no_fraction_are_not_taken_for_a_right_one(over: str, under: str) -> None:
     with suppress(ParseError):
         assert not right(TYPED.format(over=over, bar="-" * 20, under=under))
+
+
+@pytest.mark.parametrize("above", ["Solved for ẍ:", "for θ'':", ""])
+def test_a_fraction_right_below_words_with_a_colon_is_read(above: str) -> None:
+    """The words are no part of it: "for θ'':", and the three lines of a fraction."""
+    assert right(f"{above}\n" + TYPED.format(over=OVER, bar="-" * 20, under=" " * 12 + "D"))

@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.explain.row_words import is_of_numbers
 from lagrangian.check.reading import Answer, AnswerLine
-from lagrangian.check.verdict import Finding, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
 from lagrangian.model import Model
+from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
@@ -53,6 +55,26 @@ class Unjudged:
 
     lines: tuple[int, ...] = ()
     partly: tuple[int, ...] = ()
+
+
+def without_a_row(lines: Sequence[AnsweredLine], verdict: Verdict) -> list[Text]:
+    """What to say of the values of a name that has several, v² = … of one body and of another, of which some alone were
+    judged."""
+    rows = {(f.line.number, f.line.text) for f in verdict.findings}
+    named: dict[str, list[AnsweredLine]] = {}
+    for x in lines:
+        if x.kind == "definition" and x.name:
+            named.setdefault(key(x.name), []).append(x)
+    told: list[Text] = []
+    for own in named.values():
+        judged = [x for x in own if (x.number, x.text) in rows]
+        others = [x for x in own if judged and x.number not in {y.number for y in judged}]
+        told += [
+            text(f"'{x.text}' was not judged: {x.name} has another value, too.")
+            for x in others
+            if all(bounded.trigsimp(bounded.expand(x.expr - y.expr)) != 0 for y in judged)
+        ]
+    return told
 
 
 def unjudged_above(text: str, verdict: Verdict, model: Model, answer: Answer) -> Unjudged:

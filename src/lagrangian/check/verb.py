@@ -32,7 +32,7 @@ from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
-from lagrangian.check.not_judged import unjudged_above
+from lagrangian.check.not_judged import unjudged_above, without_a_row
 from lagrangian.check.parts_above import with_parts_above
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.readings_compared import (
@@ -361,7 +361,7 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
-    notes = [note for note in notes if str(note) not in named]
+    notes = [note for note in notes if str(note) not in named] + without_a_row(check.lines_of(answer), verdict)
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
     verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
     read = (text(Verbatim(note)) for note in told)
