@@ -130,15 +130,10 @@ def of_unknown(line: AnsweredLine) -> Text:
     return text(f"'{line.text}' was not judged: nothing says which coordinate {line.name} replaces.")
 
 
-def is_numbered(line: AnsweredLine) -> bool:
-    """Whether a line states the force or the momentum of a coordinate that it calls by its number."""
-    return line.kind in ("Xi", "p") and _NUMBERED.match(line.text) is not None
-
-
 def of_place(line: AnsweredLine) -> bool:
     """Whether a line states the force or the momentum of a coordinate that it calls by its number, or of the only one
     without its name, Q = …"""
-    return is_numbered(line) or (line.kind in ("Xi", "p") and _BARE.match(line.text) is not None)
+    return line.kind in ("Xi", "p") and any(form.match(line.text) is not None for form in (_NUMBERED, _BARE))
 
 
 def _stated(line: AnsweredLine) -> tuple[str, str] | None:

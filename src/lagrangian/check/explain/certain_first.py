@@ -15,6 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.second_choices import MADE_IN
 from lagrangian.check.explain.term_said import REASON, with_reason
 from lagrangian.check.explain.terms_alone import term_mistake
+from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 
 ENERGIES = ("T", "V", "L")
@@ -99,7 +100,7 @@ def _with_one_term(verdict: Verdict) -> Verdict:
     (mistake,) = verdict.mistakes
     if MADE_IN.match(str(mistake.what)) is None or REASON in str(mistake.what):
         return verdict
-    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    roots = open_findings(verdict)
     terms = {(f.line.number, d.kind, d.term, d.written): (f, d) for f in roots for d in f.differences}
     if len(terms) != 1 or not all(f.differences for f in roots):
         return verdict

@@ -6,10 +6,10 @@ of the mass matrix, in the scale of what is written.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import combinations
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -74,19 +74,12 @@ def _right_ones(truth: Reference, i: int) -> tuple[sp.Expr, ...]:
 
 
 def _factors(truth: Reference, i: int) -> Iterator[sp.Expr]:
-    accelerations = [c.acceleration for c in truth.model.coordinates]
+    M: Any = truth.mass_matrix
     others = [k for k in range(truth.n) if k != i]
-
-    def of(rows: Sequence[int], columns: Sequence[int]) -> sp.Matrix:
-        entries = [[truth.expand(bounded.diff(truth.rows[a], accelerations[b])) for b in columns] for a in rows]
-        return sp.Matrix(entries)
-
     for count in range(len(others) + 1):
         for more in combinations(others, count):
             held = sorted((i, *more))
-            det = cast("sp.Expr", of(held, held).det(method="berkowitz"))
-            yield bounded.expand(det)
+            yield bounded.expand(M.extract(held, held).det(method="berkowitz"))
             if count == 1:  # of more, it has no terms that are written so
                 (k,) = more
-                own, one, other, back = (cast("sp.Expr", of([a], [b])[0]) for a, b in ((i, i), (i, k), (k, k), (k, i)))
-                yield bounded.expand(own - one * back / other)
+                yield bounded.expand(M[i, i] - M[i, k] * M[k, i] / M[k, k])

@@ -35,6 +35,8 @@ RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
 STEP = 5
 """The step of the derivatives."""
+FORCES = 6
+"""The step of the generalized forces."""
 STEP_OF = {"T": 2, "V": 3}
 """The steps of the energies of which L is made."""
 RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
@@ -87,10 +89,6 @@ def part_of(truth: Reference, possible: Possible) -> tuple[str, int] | None:
             return "rate", of_rate[0]
         return ("slope", of_place[0]) if of_place else None
     return None
-
-
-FORCES = 6
-"""The step of the generalized forces."""
 
 
 def of_derivative_of(

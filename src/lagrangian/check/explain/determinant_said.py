@@ -17,7 +17,6 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
 
-NAME, TERM_NAME = "denominator", "denominator_term"
 WHY = text("The determinant of a symmetric matrix with the rows (A, B) and (B, I) is A I − B².")
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
@@ -26,7 +25,7 @@ NEAR = 1e-9
 def with_determinant(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on accelerations whose denominator alone is wrong, with the definition of this denominator as what is
     wrong, if there is one, and the accelerations as what follows."""
-    if not verdict.mistakes or any(m.name not in (NAME, TERM_NAME) for m in verdict.mistakes):
+    if not verdict.mistakes or any(m.name not in (solved.NAME, solved.TERM_NAME) for m in verdict.mistakes):
         return verdict
     rows = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
     if truth.n < 2 or not all(f.line.kind == "equation" for f in rows):
@@ -73,7 +72,8 @@ def _told(truth: Reference, line: AnsweredLine, rows: Sequence[Finding], verdict
     what = _words(line, wrong)
     findings = [replace(f, follows=True) if f in rows else f for f in verdict.findings]
     differing = () if wrong is None else (TermDifference("sign", -wrong, wrong, None),)
-    mistake = Mistake(NAME, what, WHY if truth.n == 2 else solved.WHY, 5, brief=text(f"{line.opening} is not right."))
+    why = WHY if truth.n == 2 else solved.WHY
+    mistake = Mistake(solved.NAME, what, why, 5, brief=text(f"{line.opening} is not right."))
     told = inserted(findings, Finding(line, Status.WRONG, None, None, differing))
     return replace(verdict, findings=tuple(told), mistakes=(mistake,), alternatives=())
 

@@ -22,6 +22,8 @@ from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 
+NAME, TERM_NAME = "denominator", "denominator_term"
+"""The names of a mistake in a denominator, and of one of which the term is known."""
 _DENOMINATOR = " is right; the denominator is not."
 WHY_BELOW = text("The denominator is what multiplies the acceleration once the others are eliminated: do it once more.")
 WHY = text("With M ξ̈ = h, ξ̈ = adj(M) h / det M: every acceleration has the same denominator, det M.")
@@ -101,8 +103,8 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
             one = 0 in pair or pair[0] == -pair[1]
             first, *more = term_replaced(*pair)[1].parts if one else ("", pair[0], " should be ", pair[1], ".")
             words = text(*words.parts[:-1], f"{_DENOMINATOR} In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
-            return Mistake("denominator_term", words, WHY_BELOW, 5, None, name, brief)
-    return Mistake("denominator", words, WHY, 5, None, name, brief)
+            return Mistake(TERM_NAME, words, WHY_BELOW, 5, None, name, brief)
+    return Mistake(NAME, words, WHY, 5, None, name, brief)
 
 
 def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> Text:

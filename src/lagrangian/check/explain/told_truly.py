@@ -18,6 +18,7 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
 from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
+from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -73,9 +74,9 @@ def _unrefuted(verdict: Verdict) -> Verdict:
             kept.append(others[0])
         else:
             kept += _terms_of(m, verdict)
-    told = {str(m.what): m for m in _once(kept, verdict)}
-    left = tuple(m for m in others if str(m.what) not in told)
-    return replace(verdict, mistakes=tuple(told.values()), alternatives=left)
+    told = tuple(_once(kept, verdict))
+    texts = {str(m.what) for m in told}
+    return replace(verdict, mistakes=told, alternatives=tuple(m for m in others if str(m.what) not in texts))
 
 
 def _once(mistakes: Sequence[Mistake], verdict: Verdict) -> Iterator[Mistake]:
@@ -121,24 +122,21 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
 
 def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether V is said to be wrong beside right ∂ℒ/∂ξ of all coordinates whose equations are wrong."""
-    roots = {f.coordinate for f in verdict.findings if f.line.kind == "equation" and _is_root(f)}
+    wrong = open_findings(verdict)
+    roots = {f.coordinate for f in wrong if f.line.kind == "equation"}
     right = {f.line.name for f in verdict.findings if f.line.kind == "slope" and f.status.right}
-    others = any(_is_root(f) and f.line.kind != "equation" for f in verdict.findings)
+    others = any(f.line.kind != "equation" for f in wrong)
     said = _OF_ENERGY.search(str(mistake.what)) is not None
     return mistake.step == 3 and said and bool(roots) and not others and roots <= right
 
 
 def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether a power or a letter is said to be wrong where one number of an equation without parameters is."""
-    wrong = [f for f in verdict.findings if _is_root(f)]
+    wrong = open_findings(verdict)
     differing = [d for f in wrong for d in f.differences]
     if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
         return False
-    return not any(x.free_symbols - {time} for f in wrong for x in [f.line.expr])
-
-
-def _is_root(finding: Finding) -> bool:
-    return finding.status is Status.WRONG and not finding.follows
+    return not any(f.line.expr.free_symbols - {time} for f in wrong)
 
 
 def _has_its_half(finding: Finding, difference: TermDifference) -> bool:
@@ -177,7 +175,7 @@ def _without_refuted_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
 def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether the lines in which a mistake shows lack terms, and differ in nothing else."""
     kinds = {d.kind for _, d in _differing(mistake, verdict)}
-    open_ones = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    open_ones = open_findings(verdict)
     compared = {f.line.title for f in open_ones if f.differences}
     return kinds == {"missing"} and all(f.line.title in compared for f in open_ones)
 
@@ -185,8 +183,7 @@ def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
 def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDifference]]:
     """The terms that differ in the lines that follow from none, and that come from the element of a mistake."""
     titles = set((mistake.element or "").replace(" and ", EITHER).split(EITHER))
-    roots = (f for f in verdict.findings if f.status is Status.WRONG and not f.follows)
-    every = [(f, d) for f in roots for d in f.differences]
+    every = [(f, d) for f in open_findings(verdict) for d in f.differences]
     return [(f, d) for f, d in every if mistake.element is None or titles & {o.element for o in d.origins}]
 
 
