@@ -107,7 +107,10 @@ def judged_lines(
         findings = with_consequences(truth, findings)
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
-    return Judged(status, found, comparison, (*_missing(truth, comparison), *_silent(truth, moved), *aside), motion)
+    silent = _silent(truth, moved)
+    if silent and status.right:
+        status = Status.INCOMPLETE
+    return Judged(status, found, comparison, (*_missing(truth, comparison), *silent, *aside), motion)
 
 
 def _told_once(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
@@ -202,7 +205,7 @@ def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
 def _silent(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Text, ...]:
     """Which energy no line of an answer states that has forces and the other energy, and no equation of motion."""
     kinds = {x.kind for x in lines}
-    if "equation" in kinds or "L" in kinds or "Xi" not in kinds or not kinds & {"T", "V"}:
+    if kinds & {"equation", "left", "L"} or "Xi" not in kinds or not kinds & {"T", "V"}:
         return ()
     moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
     energies = (("T", Name("T*"), truth.T), ("V", Name("V"), truth.V))

@@ -1,0 +1,69 @@
+"""Letters of parameters that an answer uses for the sine or cosine of a coordinate: c = cos φ beside a damper's c.
+
+Oracle: the equation of a pendulum on a cart that is held by a spring and a damper with the constant c.
+"""
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.check.verdict import Status
+
+EQUATIONS = """(M + m) x'' + m l C phi'' - m l S phi'^2 + k x = -DAMPER x'
+m l C x'' + m l^2 phi'' + m g l S = 0"""
+SAID = {
+    "before": "With c = cos phi, s = sin phi; the damper's constant is d.\n",
+    "latex": r"Let $c = \cos\varphi$ and $s = \sin\varphi$, $d$ is the damper." + "\n",
+    "lines": "c = cos(phi)\ns = sin(phi)\n",
+}
+
+
+@cache
+def cart() -> lg.Derivation:
+    """A pendulum on a cart with a spring and a damper."""
+    s = lg.System("pendulum on a cart")
+    x, phi = s.coordinates("x phi")
+    M, m, l, k, c, g = s.parameters("M m l k c g")
+    s.particle(M, at=s.point("K", (x, 0)), name="cart")
+    s.particle(m, at=s.point("B", (x + l * sp.sin(phi), -l * sp.cos(phi))), name="bob")
+    s.gravity(direction=(0, -1), g=g)
+    s.spring(k, deflection=x)
+    s.damper(c, deflection=x)
+    return s.derive()
+
+
+def equations(cosine: str, sine: str, damper: str) -> str:
+    """The equations with letters for cos φ, sin φ and the damper's constant."""
+    return EQUATIONS.replace("DAMPER", damper).replace("C", cosine).replace("S", sine)
+
+
+@pytest.mark.parametrize("said", SAID)
+def test_a_cosine_may_have_the_letter_of_a_constant(said: str) -> None:
+    verdict = cart().check(SAID[said] + equations("c", "s", "d"))
+    assert verdict.right
+    assert any("c was read as your own" in str(x) for x in verdict.notes)
+    assert not cart().check(SAID[said] + equations("s", "c", "d")).right
+
+
+def test_a_letter_that_stands_for_both_is_told() -> None:
+    verdict = cart().check(SAID["lines"] + equations("c", "s", "c"))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [3]
+    assert verdict.mistake is not None
+    assert "-cos(phi)*x' should be -c*x'" in str(verdict.mistake.what)
+
+
+def test_a_constant_without_such_a_value_is_that_of_the_system() -> None:
+    assert cart().check(equations("cos(phi)", "sin(phi)", "c")).right
+    assert not cart().check("c = cos(alpha)\n" + equations("c", "sin(phi)", "d")).right
+
+
+def test_forces_without_an_energy_are_no_whole() -> None:
+    kinetic = "T = M x'^2/2 + m/2 (x'^2 + 2 l x' phi' cos phi + l^2 phi'^2)\n"
+    forces = "Q_x = -c x'\nQ_phi = 0"
+    assert cart().check(kinetic).right
+    verdict = cart().check(kinetic + forces)
+    assert verdict.status is Status.INCOMPLETE
+    assert any("No line states V" in str(x) for x in verdict.notes)
+    assert cart().check(f"{kinetic}V = k x^2/2 - m g l cos phi\n{forces}").right
