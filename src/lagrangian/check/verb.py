@@ -18,6 +18,7 @@ from lagrangian.check import AnsweredLine
 from lagrangian.check.as_typed import as_typed
 from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
+from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
@@ -98,7 +99,9 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
             return verdict
         derivation = other
     if isinstance(given, Answer):
-        verdict = _of_readings(derivation, given, hint)
+        verdict = judged_as_counted(
+            derivation, given.counted, lambda x: _of_readings(x, given, hint), lambda x: _judged(x, given)[1]
+        )
         if verdict.right and (hidden := _hidden_result(given, verdict)) is not None:
             raise hidden
     else:

@@ -17,6 +17,8 @@ from lagrangian.model.symbols import Coordinate
 
 _AXES = {"right": (0, 1), "left": (0, -1), "up": (1, 1), "down": (1, -1)}
 """The component of a position in the plane that grows, and its sign."""
+_TURNS = {"counterclockwise": 1, "clockwise": -1}
+"""The sign with which an angle in the plane grows."""
 
 
 def stated_signs(truth: Reference, lines: Sequence[AnsweredLine], name: Any) -> dict[int, int]:
@@ -25,12 +27,12 @@ def stated_signs(truth: Reference, lines: Sequence[AnsweredLine], name: Any) -> 
     said = {(way, on) for line in lines for of, way, on in line.senses if of == str(name)}
     found: dict[int, set[int]] = {}
     for i, c in enumerate(truth.model.coordinates):
-        found[i] = {sign for way, on in said for sign in [_sign(truth.model, c, way, on)] if sign}
+        found[i] = {sign for way, on in said for sign in [sign_along(truth.model, c, way, on)] if sign}
     return {i: signs.pop() for i, signs in found.items() if len(signs) == 1}
 
 
-def _sign(model: Model, c: Coordinate, way: str, on: str) -> int:
-    """The sign of a push in some way on something along a coordinate; 0 where that is not known."""
+def sign_along(model: Model, c: Coordinate, way: str, on: str) -> int:
+    """Return the sign of a push or a turn in some way on something along a coordinate; 0 where that is not known."""
     named = [b for b in model.bodies if _speaks_of(b.name, on) or any(_speaks_of(x, on) for x in _places(model, b))]
     if on and not named and not _speaks_of(c.description, on):
         return 0
@@ -38,10 +40,14 @@ def _sign(model: Model, c: Coordinate, way: str, on: str) -> int:
         return 0
     if (ways := ways_in(c.description)) and (way in ways) != (OPPOSITE[way] in ways):
         return 1 if way in ways else -1
-    if way not in _AXES or model.dimension != 2:
+    bodies = named if on and named else model.bodies
+    if model.dimension != 2 or way not in (*_AXES, *_TURNS):
         return 0
-    axis, sense = _AXES[way]
-    slopes = [_slope(model, b, c)[axis] for b in (named if on and named else model.bodies)]
+    if way in _TURNS:
+        sense, slopes = _TURNS[way], [_turn(model, b, c) for b in bodies]
+    else:
+        axis, sense = _AXES[way]
+        slopes = [_slope(model, b, c)[axis] for b in bodies]
     signs = {sense * _ordinary(x) for x in slopes if x != 0}
     return signs.pop() if len(signs) == 1 else 0
 
@@ -60,6 +66,14 @@ def _speaks_of(words: str | None, on: str) -> bool:
 def _slope(model: Model, body: Body, c: Coordinate) -> list[sp.Expr]:
     """How the centre of a body moves with a coordinate in the fixed axes."""
     return [bounded.diff(model.expand(x, constants=True), c.symbol) for x in model.position(body.at)]
+
+
+def _turn(model: Model, body: Body, c: Coordinate) -> sp.Expr:
+    """How the angle of a body in the plane grows with a coordinate."""
+    axes = body.axes
+    if axes is None or axes.dimension != 2:
+        return sp.S.Zero
+    return bounded.diff(model.expand(axes.total_angle, constants=True), c.symbol)
 
 
 def _moves(model: Model, body: Body, c: Coordinate) -> bool:

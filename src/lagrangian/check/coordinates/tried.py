@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.coordinates.relations import related, solutions
+from lagrangian.check.coordinates.rest import position_at_rest, turning
 from lagrangian.check.reading import OwnCoordinates, named, replaced_by
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
@@ -223,7 +224,7 @@ def _with_own_names(truth: Reference) -> Iterator[ProposedChange]:
     for x, c in moved:
         yield ProposedChange({x: x - c}, text(x, " measured from another point: yours is ", x - c), False)
         yield ProposedChange({x: c - x}, text(x, " measured from another point: yours is ", c - x), False)
-    rest = dict(_static(truth))
+    rest = position_at_rest(truth)
     if len(rest) > 1:
         yield ProposedChange(
             {x: x - c for x, c in rest.items()}, text("coordinates measured from the place of rest"), False
@@ -243,12 +244,6 @@ def _relative(group: Sequence[sp.Expr]) -> Iterator[ProposedChange]:
             yield ProposedChange({x: x - y}, text(x, " relative to ", y, ": yours is ", x - y), True)
 
 
-def turning(truth: Reference) -> list[sp.Expr]:
-    """The coordinates that occur in sines and cosines, in order."""
-    angles = [f.args[0] for f in sp.Add(truth.T, truth.V, *truth.Xi).atoms(sp.sin, sp.cos)]
-    return [q for q in truth.derivation.coordinates if any(a.has(q) for a in angles)]
-
-
 def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """Pairs (coordinate, constant): rest lengths with both signs, and the equilibrium position."""
     rests = [
@@ -260,28 +255,9 @@ def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
             if not rest.has(*truth.derivation.coordinates):
                 yield q, rest
                 yield q, -rest
-    for q, c in _static(truth):
+    for q, c in position_at_rest(truth).items():
         yield q, c
         yield q, -c
-
-
-@lru_cache(maxsize=32)
-def _static(truth: Reference) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
-    """The equilibrium of a system with linear statics, coordinate by coordinate; only coordinates that are not 0
-    there. Found once for the systems that were checked most recently."""
-    still: dict[sp.Basic, sp.Expr] = {u.symbol: sp.S.Zero for u in truth.model.inputs}
-    for c in truth.model.coordinates:
-        still |= {c.rate: sp.S.Zero, c.acceleration: sp.S.Zero}
-    q = list(truth.derivation.coordinates)
-    rows = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
-    if truth.n > 4:
-        return ()
-    slopes = bounded.searched(lambda: sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows]))
-    if slopes is None or slopes.has(*q) or slopes.has(time) or slopes.det() == 0:
-        return ()
-    place = slopes.LUsolve(-sp.Matrix([r.xreplace(dict.fromkeys(q, sp.S.Zero)) for r in rows]))
-    found = [(x, bounded.cancel(c)) for x, c in zip(q, place, strict=True)]
-    return tuple((x, c) for x, c in found if c != 0)
 
 
 # -- quick test -------------------------------------------------------------------------------------------------------

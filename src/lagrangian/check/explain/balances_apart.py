@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
@@ -37,7 +38,8 @@ def with_balances_apart(truth: Reference, lines: Sequence[AnsweredLine], verdict
     others have none of these that fits, either.
     """
     held = {place_of(f.line) for f in verdict.findings if f.status.right and f.line.kind == "equation"}
-    forces = unknown_in(truth, lines)
+    constants = unknown_in(truth, [x for x in lines if not x.expr.has(AppliedUndef)])  # positions at rest
+    forces = unknown_in(truth, lines) - constants
     rows = [x for x in lines if x.kind == "equation" and x.expr.has(*forces)] if forces else []
     if truth.derivation.multipliers or any(isinstance(e, Kinetic) for e in truth.model.elements):
         return verdict  # a constraint may be put in, or a mass has no body

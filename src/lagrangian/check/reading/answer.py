@@ -108,6 +108,20 @@ class MarkedRow:
 
 
 @dataclass(frozen=True)
+class StatedCoordinates:
+    """What words say of coordinates: those that are counted from rest, in which way each is positive, and from which
+    axis angles are."""
+
+    rest: frozenset[str] = frozenset()
+    ways: tuple[tuple[str, str], ...] = ()
+    axes: tuple[tuple[str, str], ...] = ()
+
+    def __bool__(self) -> bool:
+        """Whether anything is said."""
+        return bool(self.rest or self.ways or self.axes)
+
+
+@dataclass(frozen=True)
 class Answer:
     """A whole answer, in the order in which it was written; ``notes`` say how unusual spellings were read.
 
@@ -148,6 +162,8 @@ class Answer:
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 
+    counted: StatedCoordinates = field(default=StatedCoordinates(), repr=False, compare=False)
+    """From where and in which direction words count coordinates of the system."""
     renamed: tuple[Unknown, ...] = field(default=(), repr=False, compare=False)
     """The names that were read as other ones of the system, with the symbols of these: I as J."""
     mentioned: frozenset[str] = field(default=frozenset(), repr=False, compare=False)

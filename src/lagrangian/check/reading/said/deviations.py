@@ -1,4 +1,5 @@
-"""Reads deviations from a position at rest: φ = φ0 + φ1 with a constant φ0, which is not φ, and τ = τ0 + τ1.
+"""Reads deviations from a position at rest: φ = φ0 + φ1 or p = φ − φ0 with a constant φ0, which is not φ, and
+τ = τ0 + τ1.
 
 The deviation of an input is the input less its constant: τ = τ0 + τ1 is τ1 = τ − τ0.
 """
@@ -16,12 +17,20 @@ MOST = 20
 """The most such sums."""
 
 _INDEX = r"_?\{?\w{1,6}\}?"
-_SUM = re.compile(
-    rf"(?<![\w\\'’′^*/+−-])(?P<of>\\?[^\W\d_]\w{{0,11}}?)[ \t]*&?=[ \t]*(?P<rest>(?P=of){_INDEX})[ \t]*\+[ \t]*"
-    rf"(?P<more>(?:\\?[Δδ]|\\?[dD]elta[ ]?_?)?(?P=of)(?:{_INDEX})?)(?![\w'’′(*/^·{{])"
-    r"(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b))"
+_LETTER = r"\\?[^\W\d_]\w{0,11}"
+_BEGINS, _ENDS = (
+    r"(?<![\w\\'’′^*/+−-])",
+    r"(?![\w'’′(*/^·{])(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b))",
 )
-"""A quantity as the sum of two, all of the same letter."""
+_SUM = re.compile(
+    rf"{_BEGINS}(?P<of>{_LETTER}?)[ \t]*&?=[ \t]*(?P<rest>(?P=of){_INDEX})[ \t]*\+[ \t]*"
+    rf"(?P<more>(?:\\?[Δδ]|\\?[dD]elta[ ]?_?)?{_LETTER}){_ENDS}"
+)
+"""A quantity as the sum of its value at rest, of the same letter, and its deviation."""
+_DIFFERENCE = re.compile(
+    rf"{_BEGINS}(?P<more>{_LETTER})[ \t]*&?:?=[ \t]*(?P<of>{_LETTER}?)[ \t]*[-−][ \t]*(?P<rest>(?P=of){_INDEX}){_ENDS}"
+)
+"""A deviation as the quantity less its value at rest."""
 
 
 def with_deviations_of_inputs(written: TracedText, drives: Callable[[str], bool]) -> TracedText:
@@ -34,8 +43,8 @@ def with_deviations_of_inputs(written: TracedText, drives: Callable[[str], bool]
 
 
 def constants_of_deviations(text: str) -> Iterator[str]:
-    """The names of the constants in such sums: φ0 of φ = φ0 + φ1."""
-    for match in islice(_SUM.finditer(text), MOST):
+    """The names of the constants in such sums and differences: φ0 of φ = φ0 + φ1."""
+    for match in (*islice(_SUM.finditer(text), MOST), *islice(_DIFFERENCE.finditer(text), MOST)):
         if key(_bare(match["rest"])) != key(_bare(match["of"])):
             yield _bare(match["rest"])
 

@@ -18,7 +18,7 @@ WINDOW = 110
 """The number of characters behind a name among which the way is."""
 
 _UP_A = r"(?:the[ ]|an?[ ])?(?:slope|incline|plane|hill|ramp|track|guide|wall)"
-_ALONE = r"(?:(?<=[(])|(?<=,[ ])|(?<=positive[ ]))"
+_ALONE = r"(?:(?<=[(])|(?<=,[ ])|(?<=positive[ ])|(?<=points[ ])|(?<=pointing[ ])|(?<=counted[ ])|(?<=grows[ ]))"
 _END_OF = r"(?=[ ]on\b|[ \t]{0,3}(?:[,;:.)]|$))"
 _WAYS = {
     "right": r"(?:to|towards?)[ ]the[ ]right|rightwards?|nach[ ]rechts",

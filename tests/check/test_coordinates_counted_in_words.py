@@ -1,0 +1,128 @@
+"""Answers that keep the letters of the system and say in words that they count its coordinates otherwise.
+
+Oracle: the equations of a lift on a spring, of a cart on springs and of a hanging rod, converted by hand.
+"""
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.check.reading.said.conventions import stated_coordinates
+from lagrangian.check.verdict import Status
+
+
+@cache
+def lift() -> lg.Derivation:
+    """A weight on a spring and a damper; x grows downwards."""
+    s = lg.System("weight on a spring")
+    x = s.coordinate("x")
+    m, k, c, g = s.parameters("m k c g")
+    s.particle(m, at=s.point("P", (0, -x)), name="weight")
+    s.gravity(direction=(0, -1), g=g)
+    s.spring(k, deflection=x, name="spring")
+    s.damper(c, deflection=x, name="damper")
+    s.force(s.input("F"), deflection=x, name="push")
+    return s.derive()
+
+
+@cache
+def rod() -> lg.Derivation:
+    """A rod with a motor at its hinge; θ is counted from hanging, counterclockwise."""
+    s = lg.System("rod")
+    theta = s.coordinate("theta")
+    m, l, J, g = s.parameters("m l J g")
+    tip = s.point("C", (l * sp.sin(theta), -l * sp.cos(theta)))
+    s.rigid_body(mass=m, inertia=J, at=tip, frame=s.frame(theta, name="rod"), name="rod")
+    s.gravity(direction=(0, -1), g=g)
+    s.torque(s.input("M"), on=theta, name="motor")
+    return s.derive()
+
+
+FROM_REST = (
+    "x is measured from the position of rest.",
+    "x counts from the static equilibrium, downwards.",
+    "Measured from static equilibrium (k x_s = m g):",
+    "Let x be the displacement from the equilibrium position.",
+    r"Let $x$ be measured from the static equilibrium.",
+    "x wird von der Ruhelage aus gemessen.",
+)
+NOT_FROM_REST = (
+    "x is measured from where the spring is relaxed.",
+    "x is not measured from the equilibrium.",
+    "x is measured from the rest length of the spring.",
+    "At equilibrium the force from the spring is m g.",
+    "",
+)
+
+
+@pytest.mark.parametrize("said", FROM_REST)
+def test_the_weight_drops_out_from_the_position_at_rest(said: str) -> None:
+    equation = "m x'' + c x' + k x = F" if "$" not in said else r"\[ m\ddot x + c\dot x + kx = F \]"
+    verdict = lift().check(f"{said}\n{equation}")
+    assert verdict.status is Status.OTHER_COORDINATES
+    assert any("Counted as you write" in str(note) for note in verdict.notes)
+    assert not lift().check(f"{said}\n{equation.replace('k', '2k')}").right
+
+
+@pytest.mark.parametrize("said", NOT_FROM_REST)
+def test_the_weight_stays_where_no_words_drop_it(said: str) -> None:
+    assert not lift().check(f"{said}\nm x'' + c x' + k x = F").right
+
+
+def test_energies_count_from_the_same_place() -> None:
+    said = "x is measured from the position of rest.\nT = m x'^2/2\nV = {}\nQ = F - c x'"
+    assert lift().check(said.format("k x^2/2")).right
+    assert not lift().check(said.format("k x^2/2 + m g x")).right
+
+
+def test_mistakes_are_named_as_the_answer_counts() -> None:
+    verdict = lift().check("x is measured from the static equilibrium.\nm x'' + k x = F")
+    assert verdict.mistake is not None
+    assert verdict.mistake.element == "damper 'damper'"
+    assert not any("x measured from another point" in str(note) for note in verdict.notes)
+
+
+@pytest.mark.parametrize("said", ["x counted upwards", "x (positive upwards)", "Here x points up."])
+def test_a_coordinate_is_positive_the_other_way(said: str) -> None:
+    assert lift().check(f"{said}\nm x'' + c x' + k x = -m g - F").right
+    assert not lift().check(f"{said}\nm x'' + c x' + k x = -m g + F").right
+
+
+@pytest.mark.parametrize("said", ["x counted downwards", "x (positive downwards)", "Here x points down."])
+def test_the_way_of_the_system_changes_nothing(said: str) -> None:
+    assert lift().check(f"{said}\nm x'' + c x' + k x = m g + F").right
+    assert not lift().check(f"{said}\nm x'' + c x' + k x = -m g - F").right
+
+
+def test_upwards_and_from_rest() -> None:
+    said = "Let x be the displacement from static equilibrium, positive upward.\nm x'' + c x' + k x = {}F"
+    assert lift().check(said.format("-")).right
+    assert not lift().check(said.format("")).right
+
+
+def test_an_angle_is_counted_from_another_axis() -> None:
+    level = "(J + m l^2) theta'' + m g l cos(theta) = M"
+    assert rod().check(f"theta is measured from the horizontal\n{level}").right
+    assert not rod().check(f"theta is measured from the vertical\n{level}").right
+    assert not rod().check(f"theta is measured from the horizontal\n{level.replace('= M', '= -2 M')}").right
+    above = "(J + m l^2) theta'' - m g l sin(theta) = M"
+    assert rod().check(f"theta is measured from the upward vertical\n{above}").right
+    assert not rod().check(f"theta is measured from the downward vertical\n{above}").right
+
+
+def test_clockwise_or_not() -> None:
+    other = "(J + m l^2) theta'' + m g l sin(theta) = -M"
+    assert rod().check(f"theta counted clockwise\n{other}").right
+    assert not rod().check(f"theta counted counterclockwise\n{other}").right
+
+
+def test_what_words_say_is_found_by_coordinate() -> None:
+    said = stated_coordinates(
+        "x and y are deviations from equilibrium; phi clockwise. z is small.", ["x", "y", "phi", "z"]
+    )
+    assert said.rest == {"x", "y"}
+    assert said.ways == (("phi", "clockwise"),)
+    assert stated_coordinates("y is taken from the upper vertical", ["y"]).axes == (("y", "upright"),)
+    assert not stated_coordinates("the spring is at rest. x' = 0", ["x"])
