@@ -35,7 +35,7 @@ from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.reading import Answer
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, keys_of
-from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.derive.sampling import SETS, CompiledExpressions
 from lagrangian.errors import ParseError
 from lagrangian.model import time
 from lagrangian.read.letters import key
@@ -204,15 +204,29 @@ def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
 
 
 def _may_mend(truth: Reference, first: AnsweredLine, put: Answer) -> bool:
-    """Whether the first wrong line may be right: an equation in names of the system holds along the right motion."""
+    """Whether the first wrong line may be right: an equation in names of the system holds along the right motion, and
+    an energy differs from the right one by a constant."""
     alone = replace(put, lines=tuple(x for x in put.lines if x.place.line == first.number and x.text == first.text))
-    exprs = [x.expr for x in filled(truth, lines_of(alone)) if x.kind == "equation"]
+    exprs = [x.expr for x in filled(truth, lines_of(alone)) if x.kind == first.kind]
     on = held(truth) if truth.derivation.multipliers else truth
-    if first.kind != "equation" or len(exprs) != 1 or on is None or bounded.letters(exprs[0]) - truth.names - {time}:
+    if len(exprs) != 1 or on is None or bounded.letters(exprs[0]) - truth.names - {time}:
+        return True
+    if first.kind in ("T", "V", "L") and on is truth:
+        return _keeps_energy(truth, exprs[0], {"T": truth.T, "V": truth.V, "L": truth.L}[first.kind])
+    if first.kind != "equation":
         return True
     compiled = CompiledExpressions(exprs)
     values, scale = compiled.at(on.states, on.accelerations)[0], np.abs(compiled.at(on.states)[0]).max()
     return not np.isfinite(values).all() or bool(np.abs(values).max() <= 1e-6 * (1 + scale))
+
+
+def _keeps_energy(truth: Reference, own: sp.Expr, right: sp.Expr) -> bool:
+    """Whether an energy differs from the right one by the same at all states of a set of parameters."""
+    both = CompiledExpressions([own, right]).at(truth.states)
+    if not np.isfinite(both).all():
+        return True
+    apart = (both[0] - both[1]).reshape(SETS, -1)
+    return bool(np.abs(apart - apart[:, :1]).max() <= 1e-6 * (1 + np.abs(both[1]).max()))
 
 
 def _mended(truth: Reference, verdict: Verdict, found: Verdict, put: Answer) -> list[AnsweredLine]:

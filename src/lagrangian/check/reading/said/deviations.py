@@ -20,7 +20,7 @@ _INDEX = r"_?\{?\w{1,6}\}?"
 _LETTER = r"\\?[^\W\d_]\w{0,11}"
 _BEGINS, _ENDS = (
     r"(?<![\w\\'’′^*/+−-])",
-    r"(?![\w'’′(*/^·{])(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b))",
+    r"(?![\w'’′(*/^·{])(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b|\([^\W\d_]{1,16}[ ][a-z]{2}))",
 )
 _SUM = re.compile(
     rf"{_BEGINS}(?P<of>{_LETTER}?)[ \t]*&?=[ \t]*(?P<rest>(?P=of){_INDEX})[ \t]*\+[ \t]*"
