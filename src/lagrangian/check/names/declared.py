@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.names.spelling import may_be_right
+from lagrangian.check.names.values_at_rest import equations_at_rest
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import is_rounded
 from lagrangian.check.verdict import AnsweredLine
@@ -88,6 +89,8 @@ def _implicit(
     """The lines, those that define names marked as definitions, and the value of each name."""
     known = {p.symbol for p in truth.model.parameters}
     waiting = {k: line.expr for k, line in enumerate(lines) if line.kind == "equation" and _constant(line.expr, known)}
+    at_rest = (x for x in equations_at_rest(truth, lines) if _constant(x, known))
+    waiting |= {len(lines) + k: x for k, x in enumerate(at_rest)}
     if not waiting or len(waiting) > MAX_LINES:
         return tuple(lines), {}
     used = [bounded.symbols(line.expr) for k, line in enumerate(lines) if k not in waiting]

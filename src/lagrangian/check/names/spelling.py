@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.align import agreement
+from lagrangian.check.names.values_at_rest import values_at_rest
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
@@ -47,7 +48,7 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
     lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
     known = {p.symbol for p in truth.model.parameters} | {time}
     used = _constants(lines)
-    unknown = sorted(used - known, key=str)
+    unknown = sorted(used - known - set(values_at_rest(truth, lines).values()), key=str)
     if not unknown:
         return Spelling(lines, notes)
     free = sorted(known - used - {time} - truth.values.keys(), key=str)

@@ -19,6 +19,7 @@ from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import without_constants
 from lagrangian.check.names.results import is_factor_of_forces
+from lagrangian.check.names.values_at_rest import values_at_rest
 from lagrangian.check.reading import Answer, Unknown
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
@@ -57,7 +58,8 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     moving = _moving(derivation.model, lines, answer)
     told = answer.mentioned
     asked = [u for u in asked if u not in moving and (u.name in told or not _is_known(u, derivation.model, lines))]
-    asked = [u for u in asked if any(x.expr.has(u.symbol) for x in lines)]
+    at_rest = set(values_at_rest(truth_of(derivation), lines).values())
+    asked = [u for u in asked if u.symbol not in at_rest and any(x.expr.has(u.symbol) for x in lines)]
     asked = [u for u in asked if not _is_gravity(u, derivation.model)]
     last = not any(u.name in told for u in asked) and _is_last(derivation, lines, asked, answer.described)
     asked = [] if last else asked

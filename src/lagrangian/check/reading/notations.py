@@ -58,7 +58,7 @@ from lagrangian.check.reading.said.derivative_legends import (
     with_paired_rates,
     with_raised_dots,
 )
-from lagrangian.check.reading.said.deviations import with_deviations_of_inputs
+from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
@@ -175,8 +175,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
-    inputs = {key(x.name) for x in lines.model.inputs}
-    tagless = with_deviations_of_inputs(tagless, lambda name: key(name) in inputs)
+    inputs, moving = ({key(x.name) for x in some} for some in (lines.model.inputs, lines.model.coordinates))
+    tagless = with_deviations(tagless, lambda name: key(name) in moving, lambda name: key(name) in inputs)
     varied = with_variations(tagless, taken, None if latex else names.changes)
     said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
     said = with_called_dissipation(with_values_above(said), taken)

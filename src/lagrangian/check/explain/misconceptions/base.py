@@ -18,6 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.terms.pieces import partner as partner
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra
+from lagrangian.errors import ModelError
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 from lagrangian.records import dataclass, field
@@ -241,7 +242,10 @@ class Ingredients:
     @cached_property
     def dimensions(self) -> Any:
         """What is known of the dimensions; None if they contradict each other."""
-        return check_dimensions(self.model)
+        try:
+            return check_dimensions(self.model)
+        except ModelError:
+            return None
 
     @cached_property
     def ratios(self) -> list[sp.Symbol]:

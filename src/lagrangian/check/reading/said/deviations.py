@@ -18,10 +18,9 @@ MOST = 20
 
 _INDEX = r"_?\{?\w{1,6}\}?"
 _LETTER = r"\\?[^\W\d_]\w{0,11}"
-_BEGINS, _ENDS = (
-    r"(?<![\w\\'’′^*/+−-])",
-    r"(?![\w'’′(*/^·{])(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|and\b|und\b|with\b|mit\b|\([^\W\d_]{1,16}[ ][a-z]{2}))",
-)
+_BEGINS = r"(?<![\w\\'’′^*/+−-])"
+_WORDS = r"(?:and|und|with|mit|be|are|is|from|as|for|where|denotes?)\b|\([^\W\d_]{1,16}[ ][a-z]{2}"
+_ENDS = rf"(?![\w'’′(*/^·{{])(?=[ \t]*(?:[.,;:)$&]|\\|\n|\Z|{_WORDS}))"
 _SUM = re.compile(
     rf"{_BEGINS}(?P<of>{_LETTER}?)[ \t]*&?=[ \t]*(?P<rest>(?P=of){_INDEX})[ \t]*\+[ \t]*"
     rf"(?P<more>(?:\\?[Δδ]|\\?[dD]elta[ ]?_?)?{_LETTER}){_ENDS}"
@@ -33,11 +32,13 @@ _DIFFERENCE = re.compile(
 """A deviation as the quantity less its value at rest."""
 
 
-def with_deviations_of_inputs(written: TracedText, drives: Callable[[str], bool]) -> TracedText:
-    """Return an answer in which the deviation of an input is stated by itself; ``drives`` says what an input is."""
+def with_deviations(written: TracedText, moves: Callable[[str], bool], drives: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which the deviations of inputs, and those with letters of their own, are stated by
+    themselves; ``moves`` says what a coordinate is, and ``drives`` what an input is."""
     edits: list[Edit] = []
     for match in islice(_SUM.finditer(written.text), MOST):
-        if match["more"] != match["of"] and drives(_bare(match["of"])):
+        of, own = _bare(match["of"]), not _bare(match["more"]).startswith(_bare(match["of"]))
+        if match["more"] != match["of"] and (drives(of) or (moves(of) and own)):
             edits.append((*match.span(), f"{match['more']} = {match['of']} - {match['rest']}"))
     return written.edited(apart(edits))
 
