@@ -58,3 +58,44 @@ def test_a_wrong_value_at_rest_makes_the_equations_wrong() -> None:
     said = SAID["with rest"].replace("tau_s = m g R", "tau_s = 2 m g R")
     assert said != SAID["with rest"]
     assert not hoist().check(said + "\n" + EQUATIONS).right
+
+
+IN_WORDS = {
+    "tilde": "Let $\\tilde\\varphi$ and $\\tilde x$ be the deviations from the position of rest and "
+    "$\\tilde\\tau=\\tau-mgR$.\n",
+    "Delta": "$\\Delta\\varphi$ and $\\Delta x$ are the deviations from equilibrium, $\\tilde\\tau=\\tau-mgR$.\n",
+}
+LATEX = r"""\begin{align*}
+J\ddot{\tilde\varphi}+c\dot{\tilde\varphi}+dR(R\dot{\tilde\varphi}-\dot{\tilde x})
++kR(R\tilde\varphi-\tilde x)&=\tilde\tau\\
+m\ddot{\tilde x}-d(R\dot{\tilde\varphi}-\dot{\tilde x})-k(R\tilde\varphi-\tilde x)&=0
+\end{align*}"""
+
+
+@pytest.mark.parametrize("said", IN_WORDS)
+def test_words_say_that_marked_letters_are_deviations(said: str) -> None:
+    written = IN_WORDS[said] + LATEX
+    if said == "Delta":
+        for letter in ("\\varphi", "x"):
+            for dots in ("\\ddot", "\\dot"):
+                written = written.replace(
+                    f"{dots}{{\\tilde{letter}}}" if letter != "x" else f"{dots}{{\\tilde x}}",
+                    f"\\Delta{dots}{{{letter}}}",
+                )
+            written = written.replace(f"\\tilde{letter}" if letter != "x" else "\\tilde x", f"\\Delta {letter}")
+    assert hoist().check(written).right
+    assert "-k(R" in written
+    assert not hoist().check(written.replace("-k(R", "+k(R")).right
+
+
+def test_letters_are_listed_with_their_coordinates() -> None:
+    said = "With the deviations p, y of phi, x from the position of rest and u = tau - m g R:\n"
+    assert hoist().check(said + EQUATIONS).right
+    assert not hoist().check(said.replace("of phi, x", "of x, phi") + EQUATIONS).right
+
+
+def test_the_work_of_a_holding_torque_is_in_the_potential_energy() -> None:
+    said = "Let p = phi - phi0, y = x - x0 and u = tau - m g R be the deviations from rest.\n"
+    energies = "T = J p'^2/2 + m y'^2/2\nV = k (R p - y)^2/2\nD = d (R p' - y')^2/2 + c p'^2/2\n"
+    assert hoist().check(said + energies + EQUATIONS).right
+    assert not hoist().check(said + energies.replace("k (R p - y)^2/2", "k (R p - y)^2/2 + m g y") + EQUATIONS).right

@@ -5,10 +5,12 @@ The system rests at these values: its equations hold there, with all rates 0.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
@@ -16,25 +18,58 @@ from lagrangian.check.verdict import AnsweredLine
 
 def values_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Symbol]:
     """Return the names that an answer gives to values of coordinates and inputs, of which the deviations have names."""
-    moving = [*(c.symbol for c in truth.model.coordinates), *(u.symbol for u in truth.model.inputs)]
     known = {p.symbol for p in truth.model.parameters}
-    found: dict[sp.Expr, sp.Symbol] = {}
-    for line in lines:
-        if line.kind != "definition" or not line.expr.is_Add or len(line.expr.args) != 2:
-            continue
-        for x in moving:
-            own = x - line.expr
-            if isinstance(own, sp.Symbol) and own not in known:
-                found.setdefault(x, own)
-    return found
+    found = constants_of_deviations(truth, lines)
+    return {x: own for x, own in found.items() if isinstance(own, sp.Symbol) and own not in known}
 
 
 def equations_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """Return what is 0 where a system rests at the values of which an answer names the deviations; none without."""
-    found = values_at_rest(truth, lines)
-    if truth.derivation.multipliers or not any(c.symbol in found for c in truth.model.coordinates):
+    found = constants_of_deviations(truth, lines)
+    named = values_at_rest(truth, lines)
+    if truth.derivation.multipliers or not any(c.symbol in named for c in truth.model.coordinates):
         return []
     rest: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
     rest |= {c.symbol: found.get(c.symbol, c.symbol) for c in truth.model.coordinates}
     rest |= {u.symbol: found.get(u.symbol, sp.S.Zero) for u in truth.model.inputs}
     return [cast("sp.Expr", row.xreplace(rest)) for row in truth.rows]
+
+
+def constants_of_deviations(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
+    """Return the constants that definitions subtract from coordinates and inputs."""
+    moving = [*(c.symbol for c in truth.model.coordinates), *(u.symbol for u in truth.model.inputs)]
+    found: dict[sp.Expr, sp.Expr] = {}
+    for line in lines:
+        for x in moving if line.kind == "definition" and line.expr.is_Add else ():
+            own = cast("sp.Expr", x - line.expr)
+            if not own.has(AppliedUndef):
+                found.setdefault(x, own)
+    return found
+
+
+def with_work_at_rest(
+    truth: Reference,
+    lines: tuple[AnsweredLine, ...],
+    values: Mapping[sp.Expr, sp.Expr],
+    fits: Callable[[Sequence[AnsweredLine]], bool],
+) -> tuple[AnsweredLine, ...]:
+    """Return the lines with V and Ξ that count the constant ``values`` of inputs at rest in Ξ, if that makes V fit.
+
+    A holding torque that is left out with the weight which it balances is conservative: its work is in V.
+    """
+    inputs: dict[Any, Any] = {u.symbol: values.get(u.symbol, sp.S.Zero) for u in truth.model.inputs}
+    if not any(u.symbol in values for u in truth.model.inputs) or not any(x.kind in ("V", "L") for x in lines):
+        return lines
+    inputs |= {c.rate: sp.S.Zero for c in truth.model.coordinates}
+    held = [cast("sp.Expr", truth.expand(x).xreplace(inputs)) for x in truth.Xi]
+    if any(x.has(AppliedUndef) for x in held):
+        return lines
+    work = sum((f * c.symbol for f, c in zip(held, truth.model.coordinates, strict=True)), sp.S.Zero)
+    of = {c.name: f for c, f in zip(truth.model.coordinates, held, strict=True)}
+    added = {
+        "V": lambda x: x.expr + work,
+        "L": lambda x: x.expr - work,
+        "Xi": lambda x: x.expr + of.get(str(x.name), 0),
+    }
+    put = tuple(replace(x, expr=added[x.kind](x)) if x.kind in added else x for x in lines)
+    return put if fits([x for x in put if x.kind in ("V", "L")]) else lines

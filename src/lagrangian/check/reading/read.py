@@ -45,10 +45,10 @@ from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import read_in_own_letters
-from lagrangian.check.reading.said.conventions import stated_coordinates
 from lagrangian.check.reading.said.deviations import constants_of_deviations
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
 from lagrangian.check.reading.said.mentioned import chosen_names, described_names, mentioned_names
+from lagrangian.check.reading.said.own_deviations import in_deviations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -108,8 +108,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         return read_program(program, text, model, read)
     found = without_sums_of_loops(text, read)
     beside = told_beside_comments(text, [x.place for x in equations_of_motion(found)])
-    counted = stated_coordinates(text, [c.name for c in model.coordinates])
-    return replace(found, notes=(*beside, *found.notes), counted=counted)
+    return in_deviations(replace(found, notes=(*beside, *found.notes)), text, model, read)
 
 
 def _parsed(text: str, model: Model, place: Place | None) -> Answer:

@@ -35,6 +35,10 @@ _AT_REST = re.compile(
     r"=[ ]?0[ \t]{0,3}(?:\w{1,12}[ ]){0,4}(?:at|in|is|corresponds[ ]to|means)[ ](?:the[ ]|der[ ])?" + _REST,
     re.IGNORECASE,
 )
+_DEVIATION = re.compile(
+    r"\b(?:deviations?|displacements?|departures?|measured|counted)\b.{0,80}?\bfrom[ ](?:the[ ])?rest\b(?![ ]length)",
+    re.IGNORECASE,
+)
 _COUNTED = re.compile(
     r"\b(?:measur\w{1,4}|count\w{1,3}|taken|reckon\w{1,3}|deviations?|displacements?|departures?|excursions?|deflections?|"
     r"offsets?|origin|zero|start\w{0,3}|coordinates?|is|are|be|gemessen|gezählt|auslenkung\w{0,2}|abweichung\w{0,2})\b",
@@ -42,7 +46,7 @@ _COUNTED = re.compile(
 )
 _OTHERWISE = re.compile(
     r"\b(?:not|never|unstretched|unstrained|undeformed|relaxed|slack|natural|rest[ ]length|free[ ]length|unloaded|"
-    r"nicht|kein\w{0,2}|entspannt\w{0,2}|ungespannt\w{0,2}|linear\w{0,8}|small)\b",
+    r"nicht|kein\w{0,2}|entspannt\w{0,2}|ungespannt\w{0,2})\b",
     re.IGNORECASE,
 )
 _AXIS = re.compile(
@@ -84,7 +88,7 @@ def _counts_from_rest(said: str) -> bool:
         return False
     counted = _FROM_REST.match(said)
     if counted is None:
-        return _AT_REST.search(said) is not None
+        return _AT_REST.search(said) is not None or _DEVIATION.search(said) is not None
     return not counted["before"].strip() or _COUNTED.search(said) is not None
 
 
