@@ -100,7 +100,8 @@ def _stated_forces(truth: Reference, line: AnsweredLine) -> dict[int, sp.Expr]:
     factors = _linear(line.expr, moved)
     if factors is None or (sign := factors[works[0]]) not in (1, -1):
         return {}
-    return {places[key(name)]: -sign * factors[x] for x, name in moved.items() if x not in works}
+    found = {places[key(name)]: -sign * factors[x] for x, name in moved.items() if x not in works}
+    return dict(sorted(found.items()))
 
 
 def _right_forces(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
