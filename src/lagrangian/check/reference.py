@@ -65,6 +65,11 @@ class Reference:
         return sp.ImmutableMatrix(self.derivation.mass_matrix.applyfunc(self.expand))
 
     @cached_property
+    def determinant(self) -> sp.Expr:
+        """The determinant of the mass matrix, expanded."""
+        return bounded.expand(cast("sp.Expr", self.mass_matrix.det(method="berkowitz")))
+
+    @cached_property
     def prescribed(self) -> frozenset[sp.Basic]:
         """The parameters in prescribed motions, as A and Ω in φ = A sin Ωt."""
         moves = {c.symbol for c in self.model.coordinates} | {u.symbol for u in self.model.inputs}

@@ -9,7 +9,6 @@ from typing import cast
 import numpy as np
 import sympy as sp
 
-from lagrangian import bounded
 from lagrangian.check.explain import solved
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict, inserted
@@ -40,7 +39,7 @@ def with_determinant(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
 def _explains(truth: Reference, below: sp.Expr, rows: Sequence[Finding]) -> bool:
     """Whether all rows are right but for being divided by ``below`` in place of the determinant."""
     accelerations = [c.acceleration for c in truth.model.coordinates]
-    values = CompiledExpressions([below, _det(truth), *(f.line.expr for f in rows)]).at(truth.states)
+    values = CompiledExpressions([below, truth.determinant, *(f.line.expr for f in rows)]).at(truth.states)
     slopes = CompiledExpressions([f.line.expr for f in rows]).slopes(accelerations).at(truth.states)
     slopes = slopes.reshape(len(rows), truth.n, -1)
     for f, value, slope in zip(rows, values[2:], slopes, strict=True):
@@ -58,13 +57,6 @@ def _explains(truth: Reference, below: sp.Expr, rows: Sequence[Finding]) -> bool
 
 def _is_near(one: Array, other: Array) -> bool:
     return bool(np.isfinite(one).all() and np.abs(one - other).max() <= 1e3 * NEAR * (1 + np.abs(other).max()))
-
-
-def _det(truth: Reference) -> sp.Expr:
-    """The determinant of the mass matrix."""
-    coordinates = truth.model.coordinates
-    M = sp.Matrix(truth.n, truth.n, lambda a, b: bounded.diff(truth.rows[a], coordinates[b].acceleration))
-    return cast("sp.Expr", M.det(method="berkowitz"))
 
 
 def _told(truth: Reference, line: AnsweredLine, rows: Sequence[Finding], verdict: Verdict) -> Verdict:
@@ -86,6 +78,6 @@ def _words(line: AnsweredLine, wrong: sp.Expr | None) -> Text:
 def _sign(truth: Reference, below: sp.Expr) -> sp.Expr | None:
     """The term of a wrong determinant that has the wrong sign, if that is all."""
     parts = [cast("sp.Expr", x) for x in sp.Add.make_args(below)]
-    values = CompiledExpressions([below, _det(truth), *parts]).at(truth.states)
+    values = CompiledExpressions([below, truth.determinant, *parts]).at(truth.states)
     found = [x for x, v in zip(parts, values[2:], strict=True) if _is_near(values[0] - 2 * v, values[1])]
     return found[0] if len(parts) > 1 and len(found) == 1 else None

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
@@ -118,30 +117,21 @@ def multiplied(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, sp.Expr] | Non
     row = solved_row(truth, expr)
     if row is None:
         return None
-    M, det, ratio = _determinant(truth, row)
-    scale = _scale(truth, row, M, ratio)
+    scale = _scale(truth, row, _ratio(truth, row))
     if scale is None:
         return None
     still = {c.acceleration: sp.S.Zero for c in truth.model.coordinates}
-    minors: Any = M.adjugate()
+    minors: Any = truth.mass_matrix.adjugate()
     h = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
-    right = det * row.acceleration + sp.Add(*[minors[row.i, k] * h[k] for k in range(truth.n)])
+    right = truth.determinant * row.acceleration + sp.Add(*[minors[row.i, k] * h[k] for k in range(truth.n)])
     return row.below * row.acceleration - row.expr, cast("sp.Expr", scale * right)
 
 
-def _determinant(truth: Reference, row: SolvedRow) -> tuple[sp.Matrix, sp.Expr, Array]:
-    """M, det M, and the denominator of a row divided by it at every state."""
-    M, det = _mass_matrix(truth)
-    values = CompiledExpressions([row.below, det]).at(truth.states)
+def _ratio(truth: Reference, row: SolvedRow) -> Array:
+    """The denominator of a row divided by det M at every state."""
+    values = CompiledExpressions([row.below, truth.determinant]).at(truth.states)
     with np.errstate(all="ignore"):
-        return M, det, values[0] / values[1]
-
-
-@lru_cache(maxsize=16)
-def _mass_matrix(truth: Reference) -> tuple[sp.Matrix, sp.Expr]:
-    """M and det M."""
-    M = sp.Matrix(truth.n, truth.n, lambda a, b: bounded.diff(truth.rows[a], truth.model.coordinates[b].acceleration))
-    return M, bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))
+        return np.asarray(values[0] / values[1])
 
 
 def said_of(truth: Reference, mistake: Mistake, expr: sp.Expr) -> Mistake:
@@ -169,7 +159,7 @@ def _inverse(truth: Reference) -> Array:
 def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     """A term of the numerator that is wrong, if the denominator is right: but for a factor of letters, it is det M."""
     truth = pool.truth
-    M, _, ratio = _determinant(truth, row)
+    ratio = _ratio(truth, row)
     below = CompiledExpressions([row.below]).at(truth.states)[0]
     if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(SETS, -1), axis=1).max() > CONSTANT * np.abs(ratio).max():
         return None
@@ -178,8 +168,8 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     values = CompiledExpressions(written).at(truth.states)
     listed = [(t, v) for t, v in zip(written, values, strict=True) if np.isfinite(v).all()]
     rest = row.rest * below
-    scale = _scale(truth, row, M, ratio)
-    found = in_place(pool, listed, rest, "numerator", row.i, _right(pool, row, M, scale)) if scale is not None else None
+    scale = _scale(truth, row, ratio)
+    found = in_place(pool, listed, rest, "numerator", row.i, _right(pool, row, scale)) if scale is not None else None
     if found is not None and found.instead is not None and found.term == 0:
         gone = _values(truth, found.instead[0])
         left = next((t for t, v in listed if np.abs(v + gone).max() <= SMALL * np.abs(v).max()), None)
@@ -207,23 +197,23 @@ def _pieces(expr: sp.Expr) -> Iterator[sp.Expr]:
             yield from (cast("sp.Expr", x * term / bracket) for x in sp.Add.make_args(bracket)[:MOST_PIECES])
 
 
-def _scale(truth: Reference, row: SolvedRow, M: sp.Matrix, ratio: Array) -> sp.Expr | None:
+def _scale(truth: Reference, row: SolvedRow, ratio: Array) -> sp.Expr | None:
     """D / det M, a number or a product of powers of letters."""
     if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(-1, truth.states.motions), axis=1).max() > 1e-6:
         return None
     if np.ptp(ratio) <= CONSTANT * np.abs(ratio).max():
         number = sp.nsimplify(float(np.round(ratio[0], 9)), rational=True)
         return number if isinstance(number, sp.Rational) and number.q <= 144 else None
-    found: Any = bounded.cancel(row.below / cast("sp.Expr", M.det(method="berkowitz")))
+    found: Any = bounded.cancel(row.below / truth.determinant)
     if terms(found) > 1:
         return None
     values = CompiledExpressions([found]).at(truth.states)[0]
     return cast("sp.Expr", found) if np.allclose(values, ratio, rtol=SMALL) else None
 
 
-def _right(pool: Pool, row: SolvedRow, M: sp.Matrix, scale: sp.Expr) -> RightTerms:
+def _right(pool: Pool, row: SolvedRow, scale: sp.Expr) -> RightTerms:
     """The terms of the right numerator, as products with the minors of M, and written out."""
-    minors: Any = M.adjugate()
+    minors: Any = pool.truth.mass_matrix.adjugate()
     listed: list[RightTerm] = []
     for k in range(pool.truth.n):
         minor = cast("sp.Expr", minors[row.i, k])
