@@ -47,12 +47,20 @@ FROM_REST = (
     "Let x be the displacement from the equilibrium position.",
     r"Let $x$ be measured from the static equilibrium.",
     "x wird von der Ruhelage aus gemessen.",
+    "x = 0 is the equilibrium position.",
+    "The origin of x is at equilibrium.",
+    "x is the deviation from rest.",
 )
 NOT_FROM_REST = (
     "x is measured from where the spring is relaxed.",
     "x is not measured from the equilibrium.",
     "x is measured from the rest length of the spring.",
     "At equilibrium the force from the spring is m g.",
+    "The mass starts from equilibrium at t = 0.",
+    "x starts from rest.",
+    "The spring is stretched by x. About the equilibrium the motion is an oscillation.",
+    "For small deviations from equilibrium it oscillates. x is the stretch of the spring.",
+    "The damper acts against the motion from equilibrium. x downwards.",
     "",
 )
 

@@ -25,23 +25,29 @@ _REST = (
     r"gleichgewichts?\w{0,8}|statische[rn]?|équilibre)\b"
 )
 _FROM_REST = re.compile(
-    r"(?P<before>\A|.*?\b)"
-    r"(?:from|about|around|relative[ ]to|with[ ]respect[ ]to|against|aus|von|um|gegenüber|ab|depuis)[ ]"
+    r"\b(?:from|about|around|relative[ ]to|with[ ]respect[ ]to|against|aus|von|um|gegenüber|ab|depuis)[ ]"
     r"(?:(?:the|its|their|this|that|an?|own|common|respective|stable|of|der|die|den|ihrer|seiner|l')[ ]?){0,3}+"
     + _REST,
     re.IGNORECASE,
 )
 _AT_REST = re.compile(
-    r"=[ ]?0[ \t]{0,3}(?:\w{1,12}[ ]){0,4}(?:at|in|is|corresponds[ ]to|means)[ ](?:the[ ]|der[ ])?" + _REST,
+    r"(?:(?:=|\bis|\bare|\bist)[ ]?(?:0|zero|null)|\b(?:origins?|zeros?|nullpunkt))[ \t]{0,3}(?:\w{1,12}[ ]){0,4}"
+    r"(?:at|in|is|of|corresponds[ ]to|means)[ ](?:the[ ]|its[ ]|der[ ]|their[ ]|a[ ])?" + _REST,
     re.IGNORECASE,
 )
+_STRETCH = re.compile(
+    r"\b(?:is|be|are|sei|ist)[ ](?:\w{1,12}[ ]){0,3}?"
+    r"(?:stretch|stretched|elongation|extension|compression|dehnung|verlängerung)\b",
+    re.IGNORECASE,
+)
+"""What a coordinate is that counts from where a spring is relaxed."""
 _DEVIATION = re.compile(
     r"\b(?:deviations?|displacements?|departures?|measured|counted)\b.{0,80}?\bfrom[ ](?:the[ ])?rest\b(?![ ]length)",
     re.IGNORECASE,
 )
 _COUNTED = re.compile(
     r"\b(?:measur\w{1,4}|count\w{1,3}|taken|reckon\w{1,3}|deviations?|displacements?|departures?|excursions?|deflections?|"
-    r"offsets?|origin|zero|start\w{0,3}|coordinates?|is|are|be|gemessen|gezählt|auslenkung\w{0,2}|abweichung\w{0,2})\b",
+    r"offsets?|origin|zero|coordinates?|gemessen|gezählt|auslenkung\w{0,2}|abweichung\w{0,2})\b",
     re.IGNORECASE,
 )
 _OTHERWISE = re.compile(
@@ -67,7 +73,7 @@ def stated_coordinates(text: str, names: Sequence[str]) -> StatedCoordinates:
     rest, axes = set[str](), set[tuple[str, str]]()
     for said in islice(_sentences(bare), MOST):
         found = [own[key(m["name"])] for m in _TOKEN.finditer(said) if key(m["name"]) in own]
-        if _counts_from_rest(said):
+        if not _STRETCH.search(bare) and _counts_from_rest(said):
             rest |= set(found or names)
         for match in _AXIS.finditer(said):
             if "=" in said[: match.start()]:
@@ -86,10 +92,10 @@ def _counts_from_rest(said: str) -> bool:
     """Whether a sentence says that coordinates are counted from the position at rest."""
     if _OTHERWISE.search(said) is not None:
         return False
-    counted = _FROM_REST.match(said)
+    counted = _FROM_REST.search(said)
     if counted is None:
         return _AT_REST.search(said) is not None or _DEVIATION.search(said) is not None
-    return not counted["before"].strip() or _COUNTED.search(said) is not None
+    return _COUNTED.search(said) is not None
 
 
 def _axis(match: re.Match[str]) -> str:
