@@ -67,3 +67,14 @@ def test_forces_without_an_energy_are_no_whole() -> None:
     assert verdict.status is Status.INCOMPLETE
     assert any("No line states V" in str(x) for x in verdict.notes)
     assert cart().check(f"{kinetic}V = k x^2/2 - m g l cos phi\n{forces}").right
+
+
+def test_letters_behind_equations_count_them_beside_roman_numbers() -> None:
+    written = """M x'' = -k x - c x' - N                                   (a)
+m (x'' + l phi'' cos phi - l phi'^2 sin phi) = N          (b)
+m l x'' cos phi + m l^2 phi'' + m g l sin phi = 0         (c)
+(a) + (b):
+(M + m) x'' + m l cos(phi) phi'' - m l sin(phi) phi'^2 + k x = -c x'     (I)
+m l cos(phi) x'' + m l^2 phi'' + m g l sin(phi) = 0                      (II)"""
+    assert cart().check(written).right
+    assert not cart().check(written.replace("k x = -c x'", "k x = c x'")).right

@@ -201,12 +201,21 @@ def _chosen(text: str, words: Words) -> frozenset[str]:
 
 
 def _in_order(marks: Sequence[str]) -> bool:
-    """Whether several letters or Roman numbers count: (a), (b), … or (d), (e), (f)."""
-    for order in _ORDERS:
-        first = order.index(marks[0]) if marks and marks[0] in order else len(order)
-        if marks == order[first : first + len(marks)] and len(marks) > (1 if first == 0 else 2):
-            return True
-    return False
+    """Whether several letters or Roman numbers count: (a), (b), … or (d), (e), (f); so may others behind them, (I)."""
+    left = list(marks)
+    while left:
+        longest = max((_counted(left, order) for order in _ORDERS), default=0)
+        if longest < (2 if any(left[0] == order[0] for order in _ORDERS) else 3):
+            return False
+        left = left[longest:]
+    return bool(marks)
+
+
+def _counted(marks: Sequence[str], order: Sequence[str]) -> int:
+    """How many marks follow each other as in an order."""
+    first = order.index(marks[0]) if marks[0] in order else len(order)
+    pairs = zip(marks, order[first:], strict=False)
+    return next((k for k, (mark, due) in enumerate(pairs) if mark != due), min(len(marks), len(order) - first))
 
 
 def _is_tag(letter: str, text: str, words: Words) -> bool:
