@@ -78,3 +78,35 @@ m l x'' cos phi + m l^2 phi'' + m g l sin phi = 0         (c)
 m l cos(phi) x'' + m l^2 phi'' + m g l sin(phi) = 0                      (II)"""
     assert cart().check(written).right
     assert not cart().check(written.replace("k x = -c x'", "k x = c x'")).right
+
+
+@pytest.mark.parametrize("prime", ["g'", "g’", r"$g'$", "m'"])
+def test_a_prime_of_a_constant_is_a_part_of_a_name(prime: str) -> None:
+    if "m" in prime:
+        said = "m' = m + M is the whole mass\n"
+        rows = EQUATIONS.replace("(M + m)", "m'").replace("DAMPER", "c").replace("C", "cos phi").replace("S", "sin phi")
+    elif "$" in prime:
+        said = r"With $g' = g/l$ and $\mu = m/(M+m)$" + "\n"
+        rows = r"\[ (M+m)\ddot x + ml\cos\varphi\,\ddot\varphi - ml\sin\varphi\,\dot\varphi^2 + kx = -c\dot x \]" + "\n"
+        rows += r"\[ \cos\varphi\,\ddot x + l\ddot\varphi + l g'\sin\varphi = 0 \]"
+    else:
+        said = f"{prime} = g/l (no derivative)\n"
+        rows = equations("cos phi", "sin phi", "c").replace("m g l", f"m {prime} l^2")
+    assert cart().check(said + rows).right
+    assert not cart().check(said.replace("m + M", "m").replace("g/l", "g/l^2") + rows).right
+
+
+def test_an_angular_momentum_with_squares_of_lengths_is_no_lagrangian() -> None:
+    s = lg.System("drum with a rim")
+    phi = s.coordinate("phi")
+    J, m, R, c = s.parameters("J m R c")
+    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="drum"), name="drum")
+    s.kinetic(m * R**2 * phi.diff() ** 2 / 2, name="rim")
+    s.damper(c, deflection=phi)
+    s.torque(s.input("M"), on=phi)
+    derivation = s.derive()
+    momentum = "Angular momentum about O:\nL = J phi' + m R^2 phi'\nL' = M - c phi'\n"
+    row = "J phi'' + m R^2 phi'' = M - c phi'"
+    assert derivation.check(momentum + row).right
+    assert not derivation.check(momentum.replace("m R^2", "m R^2/2") + row).right
+    assert not derivation.check("L = J phi'^2/2 + m R^2 phi'^2\n" + row).right

@@ -35,6 +35,7 @@ from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
+from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -175,9 +176,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
-    inputs, moving = ({key(x.name) for x in some} for some in (lines.model.inputs, lines.model.coordinates))
-    tagless = with_deviations(tagless, lambda name: key(name) in moving, lambda name: key(name) in inputs)
-    varied = with_variations(tagless, taken, None if latex else names.changes)
+    varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)
     said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
@@ -195,6 +194,16 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
+    """The answer with deviations from rest stated by themselves, and with names for primes of constants."""
+    model = lines.model
+    inputs, moving, fixed = (
+        {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
+    )
+    apart = with_deviations(written, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    return with_primed_constants(apart, lambda name: key(name) in fixed)
 
 
 def _straight(match: re.Match[str]) -> str:

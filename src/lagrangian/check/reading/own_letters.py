@@ -117,7 +117,7 @@ def _used_as_names(
                 rated = any(x == written and changing for side in others for x, changing in names_in(side))
                 if j != k and _is_used_for_rate(others, written):
                     yield key(written)
-                if j != k and rated and (kind == "D" or not any(map(_squares, sides[1:]))):
+                if j != k and rated and (kind == "D" or not any(map(_squares_rates, sides[1:]))):
                     yield key(written)
                 continue
             alone = only_name(others[0])
@@ -136,3 +136,10 @@ def _is_used_for_rate(sides: Sequence[Tree], written: str) -> bool:
 def _squares(side: Tree) -> bool:
     """Whether a power stands in a tree."""
     return any(x.data == "power" and len(x.children) > 1 for x in side.iter_subtrees())
+
+
+def _squares_rates(side: Tree) -> bool:
+    """Whether a power of a rate stands in a tree."""
+    powers = (x for x in side.iter_subtrees() if x.data == "power" and len(x.children) > 1)
+    bases = (x.children[0] for x in powers)
+    return any(changing for base in bases if isinstance(base, Tree) for _, changing in names_in(base))
