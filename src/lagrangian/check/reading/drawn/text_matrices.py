@@ -29,7 +29,10 @@ from lagrangian.records import dataclass
 
 _TALL = re.compile("[⎡⎢⎣⎤⎥⎦]")
 _PLAIN = str.maketrans("⎡⎢⎣⎤⎥⎦", "[[[]]]")
-_BETWEEN = re.compile(r"[\s=+*·×.,;@−-]*\Z")
+_BETWEEN = re.compile(
+    r"[\s=+*·×.,;@−-]*(?:[*·]?[ \t]*(?:[qxXy]|xi|ξ)(?:['’′]{0,2}|dd?|_?d?dot|[\u0307\u0308])[\s=+,;.−-]*)?\Z"
+)
+"""What stands between brackets: signs, and a column of all coordinates by its letter."""
 _CLOSED = {"[": "]", "(": ")"}
 _GAP = re.compile(r"[ \t]+")
 _LAST_WORD = re.compile(r"([^\W\d_]+)[²³]?\Z")
