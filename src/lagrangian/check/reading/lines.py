@@ -18,6 +18,7 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    define_rate,
     entries_of,
     forget_unused,
     is_aside,
@@ -283,7 +284,7 @@ class Lines:
     def _define(self, subject: Subject, value: sp.Expr) -> None:
         assert subject.token is not None
         if subject.order:
-            self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
+            define_rate(subject.token, subject.order, value, self.names, self.subjects.bare)
         else:
             self.names.define(subject.token, getattr(sp, subject.inverse)(value) if subject.inverse else value)
 
