@@ -34,13 +34,13 @@ from lagrangian.check.reading.line_forms import (
     together,
     without_expressions,
 )
-from lagrangian.check.reading.meaning import Meaning, ReadingBudget
+from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, has_matrix, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
-from lagrangian.check.reading.parts import left_out, tell_general, tells, why_not_judged, without_parts
+from lagrangian.check.reading.parts import left_out, tell_general, tell_vectors, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -50,6 +50,7 @@ from lagrangian.check.reading.placeholders import (
     multiple_of_energy,
     slope_of_L,
 )
+from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
@@ -361,7 +362,7 @@ class Lines:
     def _equation(self, left: Value, right: Value, a: Tree, b: Tree, reader: Meaning) -> list[AnswerLine]:
         pairs = [(left, right)]
         if is_vector(left) or is_vector(right):
-            return []
+            return tell_vectors((left, right), (a, b), reader)
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
             pairs = matrix_rows(left, right, b, reader)
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
