@@ -86,11 +86,15 @@ def test_an_equation_of_motion_in_a_list_must_be_read() -> None:
         slider().check(f"winch F, drag -b x', {BY_RHO.splitlines()[0]} @ 2, rho^2 = x^2 + d^2\n{BY_RHO}")
 
 
-def test_a_value_that_goes_on_is_not_read() -> None:
-    """A decimal comma, and a column without brackets."""
-    for value in ("1, 5 d", "x, d"):
-        with pytest.raises(lg.ParseError):
-            slider().check(f"winch F, cord -k (rho - a) x/rho, length rho = {value}\n{BY_RHO}")
+GOES_ON = ["length rho = 1, 5 d", "length rho = x, d", "length rho^2 = x^2, plus d^2", "length rho = x, twice d"]
+IN_A_CASE = ["for x = 0, rho = d", "if x is small, rho = d", "rho = d for x = 0, rest a"]
+
+
+@pytest.mark.parametrize("item", [*GOES_ON, *IN_A_CASE])
+def test_a_value_that_goes_on_or_holds_in_a_case_is_not_read(item: str) -> None:
+    """A decimal comma, a column without brackets, words that add or change, and conditions."""
+    with pytest.raises(lg.ParseError):
+        slider().check(f"winch F, cord -k (rho - a) x/rho, {item}\n{BY_RHO}")
 
 
 def test_a_name_of_the_system_with_another_value_leaves_a_doubt() -> None:

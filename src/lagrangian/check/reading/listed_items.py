@@ -9,8 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from lagrangian.check.reading.plain.spans import CONDITIONS
 from lagrangian.check.reading.prose.remarks import is_remark
 from lagrangian.check.reading.prose.words import Words, function_of
+from lagrangian.check.reading.prose.words_or_mathematics import ADDING
 from lagrangian.records import dataclass
 
 MOST = 20
@@ -27,6 +29,10 @@ _DEFINED = re.compile(
 _FIRST = re.compile(r"[ \t]*(?P<word>[^\W\d_]{2,24})(?![\w(])")
 _VARIED = re.compile(r"(?<!\w)(?:δ|delta[ \t_]?)[^\W\d_]")
 _WORDS = re.compile(r"[^\W\d_]{2,24}")
+_BLANK = " " * 4
+_PLACES = frozenset(["for", "at", "für", "bei", "pour"])
+"""Words of conditions that often only say of what something is: bob at the end."""
+_CASES = (CONDITIONS - _PLACES) | {"small", "klein", "kleine", "petits"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,24 +47,34 @@ class ListedItem:
 
 def listed_items(row: str, words: Words, known: Callable[[str], bool]) -> list[ListedItem]:
     """Return the items of a row that cannot be read as a whole; none if it is no list, or if one of its items may be an
-    equation of motion or go on with what stands before it.
+    equation of motion, go on with what stands before it or say in which case this holds.
 
     ``known``: whether a name already has a meaning.
     """
     pieces = _pieces(row)
     if not 2 <= len(pieces) <= MOST or len(row) > LONGEST:
         return []
+    if holds_in_a_case(row) or not ADDING.isdisjoint(_spoken(row)):
+        return []
     items = [ListedItem(a, b, row[a:b], _is_definition(row[a:b], known)) for a, b in pieces]
     told = [x for x in items if "=" not in x.text]
     if not told or not any(_says(x.text, words) for x in told):
         return []
     for k, item in enumerate(items):
-        if "=" in item.text and not item.defines and not is_remark(item.text):
+        equated = "=" in item.text and not item.defines
+        if equated and not (is_remark(item.text) and _PLACES.isdisjoint(_spoken(item.text))):
             return []
+        if item.defines and item.text.endswith(_BLANK):
+            return []  # rho = d for x = 0, of which the case was taken off
         after = items[k + 1] if k + 1 < len(items) else None
         if item.defines and after is not None and "=" not in after.text and not _says(after.text, words):
             return []  # rho = 1, 5 d
     return items
+
+
+def holds_in_a_case(text: str) -> bool:
+    """Whether words say that a text holds only in a case."""
+    return not _CASES.isdisjoint(_spoken(text))
 
 
 def _pieces(row: str) -> list[tuple[int, int]]:
@@ -83,6 +99,11 @@ def _is_definition(item: str, known: Callable[[str], bool]) -> bool:
     if match is None or item.count("=") != 1 or known(match["name"]) or _VARIED.search(item):
         return False
     return function_of(match["name"]) is None and match["name"] not in ("δ", "Δ")
+
+
+def _spoken(text: str) -> set[str]:
+    """The words of a text, in small letters."""
+    return {x.lower() for x in _WORDS.findall(text)}
 
 
 def _says(item: str, words: Words) -> bool:

@@ -14,7 +14,7 @@ from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.listed_items import listed_items
+from lagrangian.check.reading.listed_items import holds_in_a_case, listed_items
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.ends import missing_brackets
 from lagrangian.check.reading.plain.formula import PlainParser
@@ -179,6 +179,8 @@ def _list(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: 
 def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
     """What a row of words says in passing of names that the system does not have: th = angle, Om = Omega."""
     found: list[Statement] = []
+    if holds_in_a_case(own.text):
+        return []
     for match in islice(_MEANING.finditer(own.text), MOST_LACKING):
         named = re.findall(NAME, match["value"])
         if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):

@@ -23,7 +23,7 @@ _PAIR = re.compile(
 )
 """A name alone that is equated with another one, in a list or between brackets."""
 _DERIVED = re.compile(
-    r"(?P<primed>[^\W\d_]\w{0,20})[ \t]?['’′″]|\\d{1,2}ot[ \t]*\{?[ \t]*(?P<dotted>\\?[^\W\d]\w{0,20})"
+    r"(?P<primed>[^\W\d_]\w{0,20})[ \t]?['’′″](?!s\b)|\\d{1,2}ot[ \t]*\{?[ \t]*(?P<dotted>\\?[^\W\d]\w{0,20})"
     r"|(?<!\w)d[ \t]?(?:\^?2|²)?[ \t]?(?P<top>[^\W\d_]\w{0,20})[ \t]?/[ \t]?dt(?!\w)"
     r"|(?<!\w)(?P<spelled>[^\W\d_][^\W_]{0,11})_?d{1,2}ot(?!\w)"
 )
