@@ -65,6 +65,12 @@ def test_a_length_in_a_list_is_used(said: str) -> None:
     assert wrong_lines(answer.replace("g sin", "2 g sin")) == [3]
 
 
+def test_a_word_alone_in_front_is_a_word() -> None:
+    said = "I use the length of the cord that is wound up, rho = sqrt(x^2 + d^2), instead of a formula for it.\n\n"
+    assert slider().check(said + BY_RHO).right
+    assert wrong_lines(said.replace("+ d", "- d") + BY_RHO) == [3]
+
+
 @pytest.mark.parametrize("said", WITH_BOB)
 def test_an_acceleration_in_a_list_is_used(said: str) -> None:
     answer = f"{WITH_BOB[said]}\n{BY_BOB}"
@@ -87,12 +93,13 @@ def test_an_equation_of_motion_in_a_list_must_be_read() -> None:
 
 
 GOES_ON = ["length rho = 1, 5 d", "length rho = x, d", "length rho^2 = x^2, plus d^2", "length rho = x, twice d"]
+UNPACKED = ["x, rho = d", "alone, apart, rho = x"]
 IN_A_CASE = ["for x = 0, rho = d", "if x is small, rho = d", "rho = d for x = 0, rest a"]
 
 
-@pytest.mark.parametrize("item", [*GOES_ON, *IN_A_CASE])
+@pytest.mark.parametrize("item", [*GOES_ON, *UNPACKED, *IN_A_CASE])
 def test_a_value_that_goes_on_or_holds_in_a_case_is_not_read(item: str) -> None:
-    """A decimal comma, a column without brackets, words that add or change, and conditions."""
+    """A decimal comma, a column without brackets, words that add or change, names of entries, and conditions."""
     with pytest.raises(lg.ParseError):
         slider().check(f"winch F, cord -k (rho - a) x/rho, {item}\n{BY_RHO}")
 

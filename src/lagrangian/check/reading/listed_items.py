@@ -7,7 +7,7 @@ a note says that they were not read.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from lagrangian.check.reading.plain.spans import CONDITIONS
 from lagrangian.check.reading.prose.remarks import is_remark
@@ -27,6 +27,7 @@ _DEFINED = re.compile(
 )
 """A name, perhaps with words in front of it, and its only value, to the end of an item."""
 _FIRST = re.compile(r"[ \t]*(?P<word>[^\W\d_]{2,24})(?![\w(])")
+_ALONE = re.compile(r"\s*\w{1,24}\s*")
 _VARIED = re.compile(r"(?<!\w)(?:δ|delta[ \t_]?)[^\W\d_]")
 _WORDS = re.compile(r"[^\W\d_]{2,24}")
 _BLANK = " " * 4
@@ -64,8 +65,8 @@ def listed_items(row: str, words: Words, known: Callable[[str], bool]) -> list[L
         equated = "=" in item.text and not item.defines
         if equated and not (is_remark(item.text) and _PLACES.isdisjoint(_spoken(item.text))):
             return []
-        if item.defines and item.text.endswith(_BLANK):
-            return []  # rho = d for x = 0, of which the case was taken off
+        if item.defines and (item.text.endswith(_BLANK) or _is_entry(items[:k], words)):
+            return []  # rho = d for x = 0, of which the case was taken off; x, y, v, w = state
         after = items[k + 1] if k + 1 < len(items) else None
         if item.defines and after is not None and "=" not in after.text and not _says(after.text, words):
             return []  # rho = 1, 5 d
@@ -91,6 +92,12 @@ def _pieces(row: str) -> list[tuple[int, int]]:
             start = match.end()
     found.append((start, len(row)))
     return [(a, b) for a, b in found if row[a:b].strip(" \t\n.")]
+
+
+def _is_entry(before: Sequence[ListedItem], words: Words) -> bool:
+    """Whether what stands in front of an item are names that are given values together: phi, om, th = state."""
+    alone = [_ALONE.fullmatch(x.text) is not None for x in before[-2:]]
+    return alone == [True, True] or (alone[-1:] == [True] and not _says(before[-1].text, words))
 
 
 def _is_definition(item: str, known: Callable[[str], bool]) -> bool:
