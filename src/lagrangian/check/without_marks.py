@@ -58,12 +58,14 @@ def without_marks(answer: Answer, verdict: Verdict, judge: Judge) -> ReadAgain |
 
 
 def _judged(answer: Answer, marks: tuple[tuple[int, int], ...], judge: Judge) -> ReadAgain | None:
-    """The answer with some rows in other readings, and its verdict; None if it cannot be read so."""
+    """The answer with some rows in other readings, and its verdict; None if it, or a part of it, cannot be read so."""
     if answer.read_marked is None:
         return None
     try:
         read = answer.read_marked(marks)
     except ParseError:
+        return None
+    if read.doubt is not None and answer.doubt is None:
         return None
     return ReadAgain(read, *judge(read))
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
 
 import sympy as sp
 from lark import Token, Tree
@@ -20,6 +21,7 @@ from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.summands import negative, summands
 from lagrangian.errors import ParseError, listed
 from lagrangian.model.names import time
+from lagrangian.page.plain import plain
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
@@ -177,6 +179,21 @@ def is_rate_of(token: Token, side: Tree) -> bool:
     name, primes = only_name(side) or (token, 0)
     base, dots = undotted(name)
     return key(base) == key(str(token)) and bool(primes or dots)
+
+
+def define_rate(token: Token, order: int, value: Any, names: Names, bare: Collection[str]) -> None:
+    """Record what a statement says of the rate of a name: dw/dt = φ'' also says that w is φ', if nothing else says what
+    w is, and other statements, of which the names without signs of rates are ``bare``, use it."""
+    base = key(undotted(token)[0])
+    names.rates[base, order] = value
+    if order != 1 or base not in bare or base in names.defined or base in names.own or not isinstance(value, sp.Expr):
+        return
+    terms = [x.as_independent(sp.Derivative) for x in sp.Add.make_args(bounded.expand(value))]
+    accelerations = {c.symbol.diff(time, 2): c.symbol.diff(time) for c in names.model.coordinates}
+    if all(x in accelerations and not k.has(AppliedUndef, time) for k, x in terms):
+        rate = sp.Add(*(k * accelerations[x] for k, x in terms))
+        names.define(token, rate)
+        names.notes.setdefault(f"'{undotted(token)[0]}' was read as {plain(rate)}, as you write what its rate is.")
 
 
 def solves(rate: sp.Expr, value: sp.Expr) -> bool:

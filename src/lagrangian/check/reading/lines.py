@@ -18,6 +18,7 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    define_rate,
     entries_of,
     forget_unused,
     is_aside,
@@ -33,13 +34,13 @@ from lagrangian.check.reading.line_forms import (
     together,
     without_expressions,
 )
-from lagrangian.check.reading.meaning import Meaning, ReadingBudget
+from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, has_matrix, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
-from lagrangian.check.reading.parts import left_out, tell_general, tells, why_not_judged, without_parts
+from lagrangian.check.reading.parts import left_out, tell_general, tell_vectors, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -49,6 +50,7 @@ from lagrangian.check.reading.placeholders import (
     multiple_of_energy,
     slope_of_L,
 )
+from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
@@ -283,7 +285,7 @@ class Lines:
     def _define(self, subject: Subject, value: sp.Expr) -> None:
         assert subject.token is not None
         if subject.order:
-            self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
+            define_rate(subject.token, subject.order, value, self.names, self.subjects.bare)
         else:
             self.names.define(subject.token, getattr(sp, subject.inverse)(value) if subject.inverse else value)
 
@@ -360,7 +362,7 @@ class Lines:
     def _equation(self, left: Value, right: Value, a: Tree, b: Tree, reader: Meaning) -> list[AnswerLine]:
         pairs = [(left, right)]
         if is_vector(left) or is_vector(right):
-            return []
+            return tell_vectors((left, right), (a, b), reader)
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
             pairs = matrix_rows(left, right, b, reader)
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any, cast
 
 import sympy as sp
@@ -14,19 +14,15 @@ from lagrangian import bounded
 from lagrangian.check.reading.canonical import NAMES, momenta_of, slope_at_momenta
 from lagrangian.check.reading.columns import crossed, is_transposed, shown_shape, square
 from lagrangian.check.reading.names import Names, Value
-from lagrangian.check.reading.nodes import Node, leaf, only_name, start_of
+from lagrangian.check.reading.nodes import Node, leaf, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
 from lagrangian.check.reading.prose.words import RECIPROCALS
+from lagrangian.check.reading.reading_budget import ReadingBudget
+from lagrangian.errors import ParseError
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.expression import MAX_ORDER, ExpressionReader
 from lagrangian.read.letters import key, undotted
-
-MAX_SIZE = 20_000
-"""The largest number of nodes of all expanded definitions in one answer."""
-
-MAX_DERIVED = 120_000
-"""The largest number of nodes of all derivatives in one answer, before terms are collected."""
 
 MAX_ENTRIES = 400
 """The largest number of entries of a matrix."""
@@ -230,10 +226,29 @@ class Meaning(ExpressionReader):
             )
         if sum(map(len, rows)) > MAX_ENTRIES:
             self.fail(f"a matrix with more than {MAX_ENTRIES} entries", node, code="E703")
-        values = [[self.value(x) for x in row] for row in rows]
+        values = [[self._entry(x) for x in row] for row in rows]
         if any(isinstance(x, MatrixBase) for row in values for x in row):
             self.fail("a matrix contains a matrix", node, fix="write one matrix [a, b; c, d]")
         return sp.ImmutableMatrix(values)
+
+    def _entry(self, node: Node) -> Value:
+        """An entry of a matrix, in which a letter of a matrix that the system has, too, may be the system's."""
+        if not self.names.matrices:
+            return self.value(node)
+        done = dict(self._done)
+        with suppress(ParseError):
+            if not isinstance(value := self.value(node), MatrixBase):
+                return value
+        self._done = done
+        return self._of_system(node)
+
+    def _of_system(self, node: Node) -> Value:
+        """What a node is if no letter in it is that of a matrix: m + M/3 beside M q'', where M is a mass, too."""
+        self.names.matrices = False
+        try:
+            return super().value(node)
+        finally:
+            self.names.matrices = True
 
     def _transpose(self, node: Node) -> Value:
         value = self.value(node.children[1])
@@ -259,6 +274,9 @@ class Meaning(ExpressionReader):
                 )  # lists of as many entries
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
             if total is not None and shapes[0] != shapes[1]:
+                if self.names.matrices and all(self.names.scope.meanings(x)[0] for x, _ in names_in(node)):
+                    self._done.clear()
+                    return self._of_system(node)
                 a, b = (shown_shape(x) for x in shapes)
                 self.fail(f"{a} and {b} cannot be added", term, fix="give both the same number of rows and columns")
             total = value if total is None else total + value
@@ -325,61 +343,6 @@ class Meaning(ExpressionReader):
                 return sp.sqrt(square(found))
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
-
-
-class ReadingBudget:
-    """A limit on the nodes of expressions as trees, in which shared parts count as often as they occur."""
-
-    def __init__(self, size: int = MAX_SIZE) -> None:
-        self.left = size
-        self.derived = MAX_DERIVED
-        self._sizes: dict[sp.Basic, int] = {}
-        self._slopes: dict[sp.Basic, int] = {}
-
-    def spend(self, value: Value) -> bool:
-        """Subtract the size of a value; return False if too little is left."""
-        parts = value.flat() if isinstance(value, MatrixBase) else [value]
-        self.left -= sum(self.size(x) for x in parts)
-        return self.left >= 0
-
-    def affords_derivative(self, value: Value) -> bool:
-        """Subtract the cost of a derivative, which is its number of nodes before terms are collected; False if too
-        little is left.
-
-        A sum costs the derivatives of its terms, a product of n factors n products, anything else itself and the
-        derivative of what is inside.
-        """
-        parts = value.flat() if isinstance(value, MatrixBase) else [value]
-        self.derived -= sum(self._slope(x) for x in parts)
-        return self.derived >= 0
-
-    def _slope(self, expr: sp.Basic) -> int:
-        self.size(expr)
-        for part in self._inner_first(expr, self._slopes):
-            inner = sum(self._slopes[a] for a in part.args)
-            own = len(part.args) if part.is_Mul else 0 if part.is_Add else 1
-            self._slopes[part] = inner + own * self._sizes[part] + 1
-        return self._slopes[expr]
-
-    def size(self, expr: sp.Basic) -> int:
-        """The number of nodes; each distinct part is visited once."""
-        for part in self._inner_first(expr, self._sizes):
-            self._sizes[part] = 1 + sum(self._sizes[a] for a in part.args)
-        return self._sizes[expr]
-
-    @staticmethod
-    def _inner_first(expr: sp.Basic, known: dict[sp.Basic, int]) -> Iterator[sp.Basic]:
-        """The parts of an expression whose size is not known, inner ones first."""
-        stack = [expr]
-        while stack:
-            part = stack[-1]
-            waiting = [a for a in part.args if a not in known]
-            if waiting and part not in known:
-                stack.extend(waiting)
-                continue
-            stack.pop()
-            if part not in known:
-                yield part
 
 
 def _slope(value: Value, by: sp.Expr) -> Value:

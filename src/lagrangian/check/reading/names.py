@@ -227,7 +227,7 @@ class Names:
         if base == "t":
             return "t", time, dots
         if base.startswith("bold "):  # a bold letter that is not a matrix of this answer
-            if not self.scope.meanings(base[5:])[0]:
+            if not self.scope.meanings(base[5:])[0] and key(base[5:]) not in self.given_matrices:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in spelled_rates(base):

@@ -14,6 +14,7 @@ from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
+from lagrangian.check.reading.listed_items import holds_in_a_case, listed_items
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.ends import missing_brackets
 from lagrangian.check.reading.plain.formula import PlainParser
@@ -30,6 +31,7 @@ from lagrangian.check.reading.unit_vectors import is_vector
 from lagrangian.errors import ParseError, Place
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
+from lagrangian.records import dataclass
 
 FEWEST_NAMES = 3
 """The fewest names of the system in a sentence that may hold a result."""
@@ -82,6 +84,11 @@ def parsed(
         except ParseError as error:
             if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
                 found += [replace(part, remark=remark) for part in parts]
+                continue
+            if error.code != "E703" and latex is None and (part := _list(own, parser, lines, words_of)) is not None:
+                found += [replace(x, remark=remark) for x in part.read]
+                (lines.remarks if part.equated else words).append(error)
+                lines.doubts += [error] if part.redefines else []
                 continue
             if error.code != "E703" and latex is None and states_nothing(whole, words_of):
                 silent.append(error)
@@ -141,9 +148,39 @@ def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words:
     return found
 
 
+@dataclass(frozen=True, slots=True)
+class _List:
+    """What was read of a list, whether a part that was not read has an equals sign, and whether it may redefine a name
+    of the system."""
+
+    read: tuple[Statement, ...]
+    equated: bool
+    redefines: bool
+
+
+def _list(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> _List | None:
+    """The definitions of new names in a list that cannot be read as a whole; None if a row is no such list."""
+    read, rest = list[Statement](), list[str]()
+    items = listed_items(own.text, words, lines.names.known) if "\\" not in own.text else []
+    for item in items:
+        part = Source(item.text, own.what, own.place, lambda at, k=item.start: own.at(k + at))
+        found = _spans(part, parser, lines, words) if item.defines else []
+        if item.defines and not found:
+            return None
+        read += found
+        rest += [] if found else [item.text]
+    if not items:
+        return None
+    lines.unread.update(key(x) for text in rest for x in re.findall(NAME, text))
+    equated = [text for text in rest if "=" in text]
+    return _List(tuple(read), bool(equated), any(may_redefine(text, words) for text in equated))
+
+
 def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
     """What a row of words says in passing of names that the system does not have: th = angle, Om = Omega."""
     found: list[Statement] = []
+    if holds_in_a_case(own.text):
+        return []
     for match in islice(_MEANING.finditer(own.text), MOST_LACKING):
         named = re.findall(NAME, match["value"])
         if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):

@@ -3,6 +3,7 @@ judged where another side has none of them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import sympy as sp
@@ -10,11 +11,11 @@ from lark import Tree
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.reading.answer import Kind
+from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import listed_names
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
-from lagrangian.check.reading.nodes import start_of
+from lagrangian.check.reading.nodes import has_matrix, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_slope
 from lagrangian.quantities.source import Source
 
@@ -26,6 +27,8 @@ _INSIDE = "JIΘΩ"
 
 _FORCES = "FMNQRS"
 """The letters with which names of forces and moments begin."""
+
+_VECTOR = re.compile("\u27e8vector (.*)\u27e9")
 
 
 def tells(kind: Kind, value: Value, after: Sequence[Value], names: Names) -> bool:
@@ -69,6 +72,16 @@ def tell_general(source: Source, new: Sequence[str], names: Names) -> None:
     """Tell that a statement is not judged, and because of which names."""
     written = " ".join(source.text.split())
     names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
+
+
+def tell_vectors(values: Sequence[Value], sides: Sequence[Tree], reader: Meaning) -> list[AnswerLine]:
+    """Tell that an equation with a matrix that is written out is not judged, because of the matrices that are not
+    given; a general form without any, M q'' + h = f, says nothing of the system. It gives no lines."""
+    held = set[sp.Basic]().union(*(bounded.atoms(x, AppliedUndef) for x in values if isinstance(x, sp.Expr)))
+    vectors = sorted(m[1] for x in held if (m := _VECTOR.fullmatch(str(x.func))) is not None)
+    if vectors and any(map(has_matrix, sides)):
+        tell_general(reader.source, vectors, reader.names)
+    return []
 
 
 def _new_in(value: sp.Expr, names: Names) -> set[sp.Basic]:

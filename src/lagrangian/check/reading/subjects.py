@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Kind
+from lagrangian.check.reading.defined_energies import energy_of_definition
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import (
@@ -97,6 +98,8 @@ class Subjects:
         subjects = [self.of(side, moving=moving, balanced=balanced) for side in sides]
         order = [0, len(sides) - 1, *(i for i, s in enumerate(subjects) if s is not None and s.kind == "Xi")]
         first, last = subjects[0], subjects[-1]
+        if not moving and first is None and (own := energy_of_definition(sides, self.model, self.moves)) is not None:
+            return Subject(cast("Kind", own[0]), None, own[1]), sides
         if first is not None and last is not None and (first.order or first.kind == "identity") and self._new(last):
             order = [len(sides) - 1]  # x1' = x2 says what x2 is
         for i in order:

@@ -22,7 +22,7 @@ from lagrangian.records import dataclass
 MOST = 400
 """The largest number of tokens in a line that is looked at."""
 
-_CONDITIONS = frozenset(
+CONDITIONS = frozenset(
     [
         "if",
         "when",
@@ -66,7 +66,7 @@ class MathSpan:
     @property
     def conditional(self) -> bool:
         """Whether it says only when something holds."""
-        return self.word.lower() in _CONDITIONS
+        return self.word.lower() in CONDITIONS
 
 
 @dataclass(frozen=True, slots=True)

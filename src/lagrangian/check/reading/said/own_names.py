@@ -19,6 +19,7 @@ from itertools import islice
 from lagrangian.check.reading.markup import blanked
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
+from lagrangian.check.reading.said.equated_letters import equated_letters
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, find, key, normal, undotted
@@ -159,6 +160,14 @@ class _System:
             self._found[name] = find(name, self.model.symbols)
         return self._found[name]
 
+    def is_constant(self, name: str) -> bool:
+        """Whether this is one parameter."""
+        return len(found := self.find(name)) == 1 and found[0] in {p.name for p in self.model.parameters}
+
+    def is_coordinate(self, name: str) -> bool:
+        """Whether this is one coordinate."""
+        return len(found := self.find(name)) == 1 and found[0] in {c.name for c in self.model.coordinates}
+
     def states(self, name: str) -> bool:
         """Whether this is the name of an energy or of a generalized force."""
         return energy_of(name, self.model, lhs=True) is not None or force_of(name, self.model) is not None
@@ -250,6 +259,10 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
             spans.append(match.span())
             yield DeclaredLetter("t", own[0], match.span(), True)
             break
+    for new, named, span in equated_letters(text, system.is_constant, system.is_coordinate):
+        if _may_be(new, named, system) and all(b <= span[0] or span[1] <= a for a, b in spans):
+            spans.append(span)
+            yield DeclaredLetter(new, system.find(named)[0], span, True)
     for start, end, led in _items(text):
         if any(a < end and start < b for a, b in spans):
             continue
