@@ -75,7 +75,9 @@ _ENDS = re.compile(r"[\w\u0307\u0308)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
 _LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
-_PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
+_LEVEL_IN_WORDS = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0[ \t]++[^\W\d_][^\W\d_][^\n;=+*/^()\d]{{0,80}}")
+_PLACES = "up|at|for|when|where|with|while|if|is|means|in|on|along|bei|im|für|wenn|wo|mit|ist|heißt|à|au"
+_PLACED = re.compile(rf"=\s*0\s+(?:(?:{_PLACES})\b|(?P<word>[^\W\d_]{{4,24}})(?=[\s.,;]|$))")
 _RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
 _OPENS = re.compile(r"[(\[\d]")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
@@ -344,16 +346,15 @@ def is_sentence(text: str, words: Words) -> bool:
 
 
 def is_level(text: str, own: str, words: Words) -> bool:
-    """Whether a statement with words behind it only says where something is counted from, which a note tells: V = 0 at
-    the pivot, θ = 0 is downwards."""
-    match = _LEVEL.fullmatch(text)
-    if match is None or _PLACED.search(own) is None:
+    """Whether a statement with words behind it only says where something is 0, as a note tells: V = 0 at the pivot."""
+    match, placed = _LEVEL.fullmatch(text) or _LEVEL_IN_WORDS.fullmatch(own), _PLACED.search(own)
+    if match is None or placed is None or (placed["word"] is not None and not is_word(placed["word"], words)):
         return False
     moving = words.names.changes(match["name"])
-    if moving or match["name"].rstrip("*") in ("V", "U", "Epot", "E_pot", "Ep", "E_p"):
-        words.names.notes.setdefault(f"'{' '.join(own.split())}' was not judged: it says where {match['name']} is 0.")
-        return True
-    return False
+    if not moving and match["name"].rstrip("*") not in ("V", "U", "Epot", "E_pot", "Ep", "E_p"):
+        return False
+    words.names.notes.setdefault(f"'{' '.join(own.split())}' was not judged: it says where {match['name']} is 0.")
+    return True
 
 
 def moves(text: str) -> bool:

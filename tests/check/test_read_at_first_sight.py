@@ -1,0 +1,99 @@
+"""What stands around equations on ordinary sheets: numbers of exercises, lists of values, places where x is 0.
+
+Oracle: the equation of a rocker on a spring, with and without numbers. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+@cache
+def rocker() -> lg.Derivation:
+    """A weight on an arm that a spring and a damper hold; a force pushes its tip."""
+    s = lg.System("rocker")
+    theta = s.coordinate("theta")
+    m, l, k, b, c, r, g = s.parameters("m l k b c r g", m=2, l=0.5, k=400, b=3, c=0.02, r=0.1, g=9.81)
+    s.particle(m, at=s.point("P", (l * sp.sin(theta), l * sp.cos(theta))), name="weight")
+    s.gravity(direction=(0, -1), g=g)
+    s.spring(k, deflection=r * theta, name="spring")
+    s.damper(b, deflection=r * theta, name="damper")
+    s.damper(c, deflection=theta, name="bearing")
+    s.force(s.input("F"), deflection=l * theta, name="push")
+    return s.derive()
+
+
+EQUATION = "(b r^2 + c) theta' + m l^2 theta'' + k r^2 theta - m g l sin theta = F l"
+IN_NUMBERS = "0.5 theta'' + 0.05 theta' + 4 theta - 9.81 sin theta = 0.5 F"
+
+NUMBERS = (
+    "Exercise 3 c)   ",
+    "Task 2b: ",
+    "Aufgabe 1 a) ",
+    "ii) ",
+    "Problem 4 (b) ",
+    "Exercise 2.1 b) ",
+    "Ex 3 (c)   ",
+    "HW 4 P2 b)   ",
+    "Task 2 (ii)  ",
+    "Frage 3 b) ",
+    "Exercise 3 - ",
+    "3 c) ",
+    "Lösung zu Aufgabe 2 a): ",
+    "Sheet 7, exercise 2: ",
+)
+"""What may stand in front of an equation and is no part of it."""
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_numbers_of_exercises_are_no_factors(number: str) -> None:
+    assert rocker().check(number + EQUATION).right
+    verdict = rocker().check(number + EQUATION.replace("m g l", "m g"))
+    assert not verdict.right
+    assert "m g" in verdict.to_text()
+
+
+@pytest.mark.parametrize("factor", ["2 ", "2 (b) ", "3 (c + b) ", "(b) ", "Exercise 3: 2 ", "Solution - (c) "])
+def test_factors_in_front_of_an_equation_stay(factor: str) -> None:
+    written = factor + "theta'' = 0"
+    times = factor.partition(":")[2] or factor.partition("-")[2] or factor
+    whole = f"{EQUATION.partition('=')[0]} - F l + {times} theta'' = 0"
+    assert not rocker().check(whole).right
+    assert not rocker().check(f"{EQUATION}\n{written}").right
+
+
+LISTS = (
+    "numbers: m = 2 kg, l = 0.5 m, b = 3 Ns/m, c = 0.02 Nms, theta = 0 at relaxed spring",
+    "m = 2 kg, c = 0.02 Nms, k = 400 N/m, r = 10 cm; theta = 0 upright",
+    "m = 2 kg, c = 0.02 Nms, theta = 0 with the spring relaxed",
+    "theta = 0 for the relaxed spring, m = 2 kg, c = 0.02 Nms",
+    "m=2kg, l=50cm, c=0.02Nms, theta = angle of the arm",
+    "m l² = 0.5 kgm², c = 0.02 Nms, theta = 0 spring relaxed",
+)
+"""Values with units in one word, and places where the angle is 0."""
+
+
+@pytest.mark.parametrize("listed", LISTS)
+def test_lists_of_values_may_end_in_words(listed: str) -> None:
+    assert rocker().check(f"{listed}\n\n{IN_NUMBERS}").right
+    for wrong in ("0.05", "9.81"):
+        verdict = rocker().check(f"{listed}\n\n{IN_NUMBERS.replace(wrong, '0.7')}")
+        assert not verdict.right
+        assert "line 1, the equation" not in verdict.to_text()
+
+
+@pytest.mark.parametrize("value", ["c = 0.03 Nms", "m = 3 kg, c = 0.02 Nms"])
+def test_other_values_in_such_a_list_count(value: str) -> None:
+    verdict = rocker().check(f"{value}, theta = 0 at relaxed spring\n\n{IN_NUMBERS}")
+    assert not verdict.right
+    assert f"With {value.partition(' k')[0].partition(' N')[0]}" in verdict.to_text()
+
+
+def test_an_equation_of_rest_beside_a_relaxed_spring_is_judged() -> None:
+    """A product that is 0 is no place where the angle is 0."""
+    assert not rocker().check(f"spring relaxed: k theta = 0\n{EQUATION.replace('k r^2 theta', '0')}").right
