@@ -97,3 +97,46 @@ def test_other_values_in_such_a_list_count(value: str) -> None:
 def test_an_equation_of_rest_beside_a_relaxed_spring_is_judged() -> None:
     """A product that is 0 is no place where the angle is 0."""
     assert not rocker().check(f"spring relaxed: k theta = 0\n{EQUATION.replace('k r^2 theta', '0')}").right
+
+
+@cache
+def discs() -> lg.Derivation:
+    """Two discs with a shaft between them; an arm of length l with a weight at a l is on the first one."""
+    s = lg.System("two discs")
+    alpha, beta = s.coordinates("alpha beta")
+    J, b, e, k, a, l, F = s.parameters("J b e k a l F")
+    s.kinetic(J * alpha.diff() ** 2 / 2, name="first disc")
+    s.kinetic(b * e * beta.diff() ** 2 / 2, name="second disc")
+    s.spring(k, deflection=alpha - beta, name="shaft")
+    s.potential(F * a * l * sp.cos(alpha), name="weight")
+    s.torque(s.input("M"), on=beta, name="motor")
+    return s.derive()
+
+
+SHORT = "J al'' + k (al - be) - F a l sin al = 0\nb e be'' - k (al - be) = M"
+
+
+@pytest.mark.parametrize("mark", ["'", "d", "_dot"])
+def test_short_names_with_rates_are_no_products_of_constants(mark: str) -> None:
+    """al'' is alpha'', though there are an a and an l, of which none moves."""
+    twice = {"'": "''", "d": "dd", "_dot": "_ddot"}[mark]
+    answer = SHORT.replace("''", twice)
+    assert discs().check(answer).right
+    assert discs().check(f"T = (J al{mark}^2 + b e be{mark}^2)/2\nV = k (al - be)^2/2 + F a l cos al\n{answer}").right
+    assert not discs().check(answer.replace("k (al - be) -", "k (al + be) -")).right
+    assert not discs().check(answer.replace("sin al", "sin be")).right
+
+
+def test_short_names_without_rates_are_products() -> None:
+    answer = "J alpha'' + k (alpha - beta) - F al sin alpha = 0\nbe beta'' - k (alpha - beta) = M"
+    assert discs().check(answer).right
+    assert not discs().check(answer.replace("F al", "F aa")).right
+
+
+def test_momenta_and_slopes_by_short_names_are_read() -> None:
+    lines = "dT/d al' = J al'\ndV/d al = k (al - be) - F a l sin al\nXi_be = M"
+    energies = "T = (J al'^2 + b e be'^2)/2\nV = k (al - be)^2/2 + F a l cos al"
+    assert discs().check(f"{energies}\n{lines}\n{SHORT}").right
+    told = discs().check(f"{energies}\n{lines.replace('- F a l', '+ F a l')}\n{SHORT.replace('- F a l', '+ F a l')}")
+    assert not told.right
+    assert "line 4" in told.to_text()
