@@ -140,3 +140,39 @@ def test_momenta_and_slopes_by_short_names_are_read() -> None:
     told = discs().check(f"{energies}\n{lines.replace('- F a l', '+ F a l')}\n{SHORT.replace('- F a l', '+ F a l')}")
     assert not told.right
     assert "line 4" in told.to_text()
+
+
+PLACES = (
+    r"Let $\psi$ be the angle to the level: $\psi=90^\circ$ up, $\psi=0$ level, i.e. $\theta=\frac{\pi}{2}-\psi$.",
+    r"I use $\psi$ ($\psi = \pi/2$ when upright, $\psi = 0$ when level), so $\theta=\pi/2-\psi$.",
+    r"Coordinate: $\psi=\frac\pi2-\theta\in[0,\frac{\pi}{2}]$.",
+    r"$\theta=90^\circ-\psi$, where $\psi=0^\circ$ is level and $\psi=90^\circ$ upright.",
+)
+"""What is said of a coordinate of the answer's own, values of it among them."""
+TURNED = (
+    r"\[ml^2\ddot\psi+(br^2+c)\dot\psi-kr^2\left(\frac{\pi}{2}-\psi\right)+mgl\cos\psi=-Fl\]",
+    r"\[ml^2\ddot\psi+(br^2+c)\dot\psi-kr^2\left(\frac{\pi}{2}-\psi\right)+mgl\cos\psi=Fl\]",
+)
+
+
+@pytest.mark.parametrize("said", PLACES)
+def test_values_of_an_own_coordinate_are_places(said: str) -> None:
+    assert rocker().check(f"{said}\n{TURNED[0]}").right
+    verdict = rocker().check(f"{said}\n{TURNED[1]}")
+    assert not verdict.right
+    assert "wrong sign" in verdict.to_text()
+
+
+def test_values_of_an_own_coordinate_in_plain_text() -> None:
+    said = "psi = 90 deg: upright, psi = 0: level, theta = pi/2 - psi"
+    equation = "m l^2 psi'' + (b r^2 + c) psi' - k r^2 (pi/2 - psi) + m g l cos psi = -F l"
+    assert rocker().check(f"{said}\n{equation}").right
+    assert not rocker().check(f"{said}\n{equation.replace('cos', 'sin')}").right
+    assert not rocker().check(f"{said.replace('pi/2 - ', '')}\n{equation}").right
+
+
+@pytest.mark.parametrize("interval", ["∈ [0, pi/2]", "∈ (0; pi)", "∈ [0, 2 pi)"])
+def test_intervals_are_no_statements(interval: str) -> None:
+    equation = "m l^2 psi'' + (b r^2 + c) psi' - k r^2 (pi/2 - psi) + m g l cos psi = -F l"
+    assert rocker().check(f"psi = pi/2 - theta {interval}\n{equation}").right
+    assert not rocker().check(f"psi = pi - theta {interval}\n{equation}").right
