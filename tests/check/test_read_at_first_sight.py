@@ -176,3 +176,23 @@ def test_intervals_are_no_statements(interval: str) -> None:
     equation = "m l^2 psi'' + (b r^2 + c) psi' - k r^2 (pi/2 - psi) + m g l cos psi = -F l"
     assert rocker().check(f"psi = pi/2 - theta {interval}\n{equation}").right
     assert not rocker().check(f"psi = pi - theta {interval}\n{equation}").right
+
+
+MAILS = (
+    "Hi, here is my solution. I used the length of rope that is wound up, u = r theta, instead of the angle:",
+    "Hi Tom, I take u = r theta instead of the angle.",
+    "Dear Ms Miller, below is my solution. Let u = r theta be the length that is paid out, and s no coordinate.",
+    "hello! As coordinate I take what the rope has gone down, u = r theta.",
+    "Instead of theta I use the way of the rope that goes up, u = r·theta, in metres.",
+)
+"""Sentences of mails that declare a coordinate."""
+
+
+@pytest.mark.parametrize("said", MAILS)
+def test_an_own_coordinate_is_declared_in_a_mail(said: str) -> None:
+    equation = "m l²/r² · u'' + (b + c/r²) u' + k u - (m g l/r) sin(u/r) = F l/r"
+    assert rocker().check(f"{said}\n\n{equation}").right
+    verdict = rocker().check(f"{said}\n\n{equation.replace('c/r²', 'c/r')}")
+    assert not verdict.right
+    assert "one divisor r is missing" in verdict.to_text()
+    assert not rocker().check(f"{said.replace('r theta', 'l theta').replace('r·theta', 'l·theta')}\n\n{equation}").right
