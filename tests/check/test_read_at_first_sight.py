@@ -1,6 +1,6 @@
-"""What stands around equations on ordinary sheets: numbers of exercises, lists of values, places where x is 0.
+"""What stands around equations on ordinary sheets, exercises, values, places where x is 0, and names of their own.
 
-Oracle: the equation of a rocker on a spring, with and without numbers. Every form has a wrong twin.
+Oracle: the equations of a rocker on a spring and of two discs. Every form has a wrong twin.
 """
 
 from __future__ import annotations
@@ -196,3 +196,35 @@ def test_an_own_coordinate_is_declared_in_a_mail(said: str) -> None:
     assert not verdict.right
     assert "one divisor r is missing" in verdict.to_text()
     assert not rocker().check(f"{said.replace('r theta', 'l theta').replace('r·theta', 'l·theta')}\n\n{equation}").right
+
+
+PROGRAM = '''import numpy as np
+
+def rhs(t, s, p, M):
+    """s = [alpha, beta, alpha', beta']; returns the time derivative"""
+    al, be, wa, wb = s
+    twist = p.k*(al - be)
+    A = np.array([[p.J, 0],
+                  [0,   p.b*p.e]])
+    f = np.array([p.F*p.a*p.l*np.sin(al) - twist,
+                  M + twist])
+    acc = np.linalg.solve(A, f)
+    return np.array([wa, wb, acc[0], acc[1]])
+'''
+"""Short names of the program's own that might be products of parameters, which are attributes of one argument."""
+WRITTEN_OTHERWISE = (
+    ("al, be, wa, wb = s", "[al, be, wa, wb] = s"),
+    ("al, be, wa, wb = s", "(al, be), (wa, wb) = s[:2], s[2:]"),
+    ("return np.array([wa, wb, acc[0], acc[1]])", "return np.concatenate(([wa, wb], acc))"),
+    ("return np.array([wa, wb, acc[0], acc[1]])", "return [wa, wb, *acc]"),
+    ("np.linalg.solve(A, f)", "np.linalg.inv(A) @ f"),
+)
+
+
+@pytest.mark.parametrize(("old", "new"), [("import numpy", "import numpy"), *WRITTEN_OTHERWISE])
+def test_a_state_with_short_names_of_its_own_is_read(old: str, new: str) -> None:
+    assert old in PROGRAM
+    program = PROGRAM.replace(old, new)
+    assert discs().check(program).right
+    for right, wrong in (("np.sin(al)", "np.cos(al)"), ("M + twist", "M - twist"), ("p.b*p.e", "p.b")):
+        assert not discs().check(program.replace(right, wrong)).right
