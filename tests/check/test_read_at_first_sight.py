@@ -161,6 +161,7 @@ def test_values_of_an_own_coordinate_are_places(said: str) -> None:
     verdict = rocker().check(f"{said}\n{TURNED[1]}")
     assert not verdict.right
     assert "wrong sign" in verdict.to_text()
+    assert "pi/180" not in verdict.to_text()
 
 
 def test_values_of_an_own_coordinate_in_plain_text() -> None:

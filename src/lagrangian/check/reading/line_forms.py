@@ -87,6 +87,7 @@ def _is_place(statement: Statement, names: Names) -> bool:
     valued = isinstance(value, Tree) and all(x in PI for x, _ in names_in(value)) and not has_matrix(value)
     if own and valued:
         written = " ".join(statement.source.text.split())
+        written = typed_as(statement.source, written) or written
         names.notes.setdefault(f"'{written}' was not judged: it is about one position.")
     return own and valued
 
