@@ -3,8 +3,12 @@
 Oracle: the equations of the spherical pendulum. Every form has a wrong twin.
 """
 
-import pytest
+from functools import cache
 
+import pytest
+import sympy as sp
+
+import lagrangian as lg
 from built_in import derivation
 
 LATEX = r"""$$I(\theta) = m L^2\sin^2\theta, \qquad SLOPE = 2 m L^2\sin\theta\cos\theta$$
@@ -87,3 +91,54 @@ I φ'' + I' θ' φ' = 0
     assert verdict.right, verdict.to_text()
     for old, new in (("1/2 I'", "I'"), ("I' θ' φ'", "I' φ'"), ("= 2 m", "= m"), ("dI/dθ", "dI/dθ θ'")):
         assert not derivation("spherical-pendulum").check(written.replace(old, new), hint=0).right, new
+
+
+@cache
+def bar() -> lg.Derivation:
+    """A bar about its end, whose tip a spring, a damper and a force hold along one direction."""
+    s = lg.System("bar")
+    theta = s.coordinate("theta")
+    J, l, k, b = s.parameters("J l k b")
+    s.kinetic(J * theta.diff() ** 2 / 2, name="bar")
+    s.spring(k, deflection=l * sp.sin(theta), name="spring")
+    s.damper(b, deflection=l * sp.sin(theta), name="damper")
+    s.force(s.input("F"), deflection=l * sp.sin(theta), name="push")
+    return s.derive()
+
+
+OF_ITS_OWN = r"""I use $x=l\sin\theta$ instead of the angle.
+\[T=\frac12\mu(x)\dot x^2,\qquad \mu(x)=\frac{J}{l^2-x^2}\]
+With $\frac12SLOPE=\dfrac{J\,x}{(l^2-x^2)^2}$ this gives
+\[\mu(x)\ddot x+\frac12SLOPE\,\dot x^2+kx=F-b\dot x\]"""
+OF_ITS_OWN_IN_TEXT = """x = l sin(theta)
+T = 1/2 mu(x) x'^2, mu(x) = J/(l^2 - x^2)
+1/2 SLOPE = J x/(l^2 - x^2)^2
+mu(x) x'' + 1/2 SLOPE x'^2 + k x = F - b x'
+"""
+
+
+@pytest.mark.parametrize(
+    "slope", [r"\mu'(x)", r"\mu'", r"\frac{d\mu}{dx}", r"\frac{\mathrm{d}\mu(x)}{\mathrm{d}x}", "mu'(x)", "dmu/dx"]
+)
+@pytest.mark.parametrize("letter", ["mu", "A"])
+def test_a_function_of_an_own_coordinate_is_differentiated_by_it(slope: str, letter: str) -> None:
+    """x is no coordinate of the system, and the function that it stands in has no rate."""
+    written = (OF_ITS_OWN if "\\" in slope else OF_ITS_OWN_IN_TEXT).replace("SLOPE", slope)
+    written = written.replace(r"\mu", "mu" if letter == "A" else r"\mu").replace("mu", letter)
+    verdict = bar().check(written)
+    assert verdict.right, verdict.to_text()
+    half = r"\frac12" if "\\" in slope else "1/2 "
+    first, _, last = written.rpartition(half)
+    assert not bar().check(first + last).right
+    wrong = written.replace("J\\,x}", "2J\\,x}").replace("J x/", "2 J x/")
+    assert not bar().check(wrong).right
+    assert "not right" in bar().check(wrong).to_text()
+
+
+def test_the_root_beside_an_abbreviation_has_its_sign() -> None:
+    """sqrt(l² − x²) is l cos θ where x = l sin θ is a coordinate, and μ beside it none."""
+    force = "T = J x'^2/(2 (l^2 - x^2)), mu = J/(l^2 - x^2)\nmu x'' + J x x'^2/(l^2 - x^2)^2 + k x = F - b x'"
+    written = "x = l sin(theta)\nd = sqrt(l^2 - x^2)\n" + force.replace("mu = J/(l^2 - x^2)", "mu = J/d^2")
+    assert bar().check(written).right
+    assert bar().check(written.replace("mu x''", "J/(d sqrt(l^2 - x^2)) x''")).right
+    assert not bar().check(written.replace("mu x''", "-mu x''")).right

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, cast
+from unicodedata import normalize
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -79,7 +80,17 @@ def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[Answ
     defined = (x for x in (*of_system, *lines) if x.kind == "definition" and _is_place(truth, x))
     said = {key(str(x.name)): x for x in defined}
     stated = [x for name, x in said.items() if name in used and name not in own]
-    return stated, tuple(c.symbol for c in coordinates if key(c.name) not in used)
+    gone = tuple(c.symbol for c in coordinates if key(c.name) not in used)
+    if len(stated) > len(gone):  # A = J + m x² beside x = r φ: one that has no rate only abbreviates
+        stated = [x for x in stated if any(_is_rated(str(x.name), line.text) for line in moving)]
+    return stated, gone
+
+
+def _is_rated(name: str, written: str) -> bool:
+    """Whether a name has a mark of a rate in a line as it is written."""
+    bare = re.escape(name.lstrip("\\"))
+    form = rf"(?<!\w){bare}(?:['’′″\u0307\u0308]|_?d?dot(?!\w)|dd?(?!\w))|\\d?dot[ ]?\{{?[ ]?\\?{bare}(?!\w)"
+    return re.search(form, normalize("NFD", written)) is not None
 
 
 def _names_of_quantities(lines: Sequence[AnsweredLine]) -> set[str]:

@@ -119,7 +119,9 @@ def with_own_functions(
 
 _DOTTED = re.compile("[\u0307\u0308]|\\\\d?dot(?![A-Za-z])|(?<=[^\\W\\d])_?d?dot(?!\\w)|(?<=[^\\W\\d])_dd?(?!\\w)")
 """How rates are written without primes."""
-_PRIMED = re.compile(r"(?<!\w)\\?(?P<name>[^\W\d_]\w{0,24}(?:\{\w{1,20}\})?)[ }]{0,2}['’′″]")
+_PRIMED = re.compile(
+    r"(?:(?<!\w)(?!\\?[dt]?frac\d)|(?<=frac\d\d))\\?(?P<name>[^\W\d_]\w{0,24}(?:\{\w{1,20}\})?)[ }]{0,2}['’′″]"
+)
 
 
 def with_primes_as_slopes(
@@ -137,7 +139,9 @@ def with_primes_as_slopes(
     for match in _called(text.text, system, changes):
         found.setdefault(written(match["name"]), (match["name"], match["of"].strip()))
     found = {
-        x: (name, of) for x, (name, of) in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))
+        x: (name, of)
+        for x, (name, of) in found.items()
+        if re.fullmatch(r"\\?\w{1,24}", of) and (changes(written(of)) or _has_rate(written(of), text.text))
     }
     primed = {written(m["name"]) for m in _PRIMED.finditer(text.text)} if found else set[str]()
     moving = any(changes(x) for x in primed) or not _DOTTED.search(normalize("NFD", text.text))
@@ -161,7 +165,8 @@ def apart_from(text: str, match: re.Match[str], new: str) -> str:
 def _primed(name: str, of: str, *, alone: bool) -> list[str]:
     """The pattern of a function with a prime: Θ'(r), and Θ' ``alone``."""
     applied = rf"(?:\s?{_argument(of)})"
-    return [rf"(?:(?<![\w\\])|(?<=\d)(?=\\)){_spelled(name)}\s?['’′](?!['’′]){applied}{'?' if alone else ''}"]
+    begins = r"(?:(?<![\w\\])|(?<=\d)(?=\\)|(?<=frac\d\d))"
+    return [rf"{begins}{_spelled(name)}\s?['’′](?!['’′]){applied}{'?' if alone else ''}"]
 
 
 def differentiated(name: str, of: str) -> list[str]:
@@ -248,7 +253,7 @@ def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str]
 def _has_rate(name: str, text: str) -> bool:
     """Whether an answer differentiates a name by time."""
     return (
-        re.search(rf"(?<!\w){re.escape(name)}(?:['’′]|d?dot\b)|\\d?dot\s?\{{?\s?{re.escape(name)}(?!\w)", text)
+        re.search(rf"(?<!\w){re.escape(name)}(?:['’′]|d?dot\b)|\\d?dot\s?\{{?\s?\\?{re.escape(name)}(?!\w)", text)
         is not None
     )
 

@@ -14,8 +14,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind, Summands
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Names, Value, spelled_rates
-from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
+from lagrangian.check.reading.names import PI, Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import has_matrix, inside, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import displacements, is_force, is_placeholder
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.summands import negative, summands
@@ -86,9 +86,10 @@ def _is_place(statement: Statement, names: Names) -> bool:
     token, primes = found
     own = not primes and not undotted(token)[1] and not names.scope.meanings(token)[0] and names.changes(token)
     value = inside(statement.sides[1])
-    valued = isinstance(value, Tree) and value.data == "number"
+    valued = isinstance(value, Tree) and all(x in PI for x, _ in names_in(value)) and not has_matrix(value)
     if own and valued:
         written = " ".join(statement.source.text.split())
+        written = typed_as(statement.source, written) or written
         names.notes.setdefault(f"'{written}' was not judged: it is about one position.")
     return own and valued
 

@@ -50,6 +50,7 @@ from lagrangian.check.reading.programs.sessions import without_prompts, without_
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.programs.templates import with_templates_applied
+from lagrangian.check.reading.prose.intervals import without_intervals
 from lagrangian.check.reading.prose.leading_words import without_leading_words
 from lagrangian.check.reading.prose.relaxed import without_relaxed
 from lagrangian.check.reading.prose.remarks import without_legend
@@ -104,7 +105,7 @@ _ROUND_BY_TIME = re.compile(
 
 def _copied(text: str) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
-    plain = without_copying(without_proved(without_star_math(TracedText(text))))
+    plain = without_intervals(without_copying(without_proved(without_star_math(TracedText(text)))))
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     return with_drawn_pieces(with_tall_brackets(plain))
 

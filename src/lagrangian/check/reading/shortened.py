@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.read.letters import GREEK, key, undotted
 from lagrangian.read.scope import Scope
@@ -30,6 +31,8 @@ _WHOLE |= {"l": "ell", "ell": "ell"}
 _INDEXED = re.compile(r"([A-Za-z]+)(\d*)")
 _OF_ANGLE = re.compile(r"(?<!\w)(?:sin|cos|tan)[ ]?\([ ]?([^\W\d]\w{0,24}+)(?=[ ]?[-+−)])")
 _WORD = re.compile(r"(?<![^\W_])[A-Za-z](?![^\W_])")
+_RATED = re.compile(r"(?<![\w'’′])(?P<name>[A-Za-z]{2,4}\d{0,2})(?:['’′″](?!s\b)|_?dd?ot(?!\w)|_?dd(?!\w))")
+"""A name with a mark of a rate."""
 _TWO_LETTERS = re.compile(r"([A-Za-z][a-z])_?(\d*)")
 
 
@@ -39,8 +42,9 @@ class AnswerScope(Scope):
     A shortened name is read if one name of the system alone can be meant, and if the answer does not define it:
     ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``. ℓ, which is the
     letter l to Unicode, is ``ell`` where the system has no l. Two letters alone, al for alpha, are a name only where
-    the answer uses them as one: ``used``, or any if that is None, as in a program. A letter twice, II or jj, is the
-    letter, in either case, that the answer does not use otherwise.
+    the answer uses them as one: ``used``, or any if that is None, as in a program. Letters that might be a product of
+    constants are a name if they have a rate: al'' is alpha'', and no a l''. A letter twice, II or jj, is the letter, in
+    either case, that the answer does not use otherwise.
     """
 
     def __init__(self, symbols: Scope) -> None:
@@ -48,6 +52,7 @@ class AnswerScope(Scope):
         self.taken: frozenset[str] = frozenset()
         self.used: frozenset[str] | None = frozenset()
         self._doubled: dict[str, str] = {}
+        self._rated: frozenset[str] = frozenset()
         self._meant: dict[str, tuple[list[str], int]] = {}
         super().__init__(symbols)
         for name in symbols:
@@ -58,7 +63,8 @@ class AnswerScope(Scope):
         """Take from an answer what it defines and what it uses as names, such as those of a sine or cosine: cos(al)."""
         self._meant.clear()
         self.taken = frozenset(map(key, own))
-        self.used = frozenset(used) | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
+        self._rated = frozenset(m["name"] for m in _RATED.finditer(text))
+        self.used = frozenset(used) | self._rated | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
         doubled = [x for x in self.used if len(x) == 2 and x[0] == x[1] and key(x) not in self.taken]
         doubled = [x for x in doubled if x.isupper() or x[0] not in self]  # aa is a²
         words = set(_WORD.findall(text)) if doubled else set()
@@ -92,6 +98,12 @@ class AnswerScope(Scope):
     def _shortened(self, base: str) -> list[str]:
         if key(base) in self.taken or self._is_product(key(base)):
             return []
+        found = self._short_for(base)
+        rated = base in self._rated and self._is_product(key(base), rated=False)
+        return found if not rated or all(map(self._moves, found)) else []
+
+    def _short_for(self, base: str) -> list[str]:
+        """The names of which this may be a short form."""
         letter = _letter(base)
         if letter is None:
             return self._begun(base)
@@ -110,12 +122,19 @@ class AnswerScope(Scope):
         begun = [x for (word, digits), x in self._letters.items() if word.startswith(stem) and digits == number]
         return begun[0] if len(begun) == 1 and len(begun[0]) == 1 else []
 
-    def _is_product(self, word: str) -> bool:
-        """Whether a shortened name is two names of the system next to each other: al as a·l."""
-        return word not in GREEK.values() and any(
-            super(AnswerScope, self).meanings(word[:k])[0] and super(AnswerScope, self).meanings(word[k:])[0]
-            for k in range(1, len(word))
-        )
+    def _is_product(self, word: str, *, rated: bool = True) -> bool:
+        """Whether a shortened name is two names of the system next to each other: al as a·l; of one that is ``rated`` in
+        the answer the second one moves."""
+        known = super().meanings
+        for k in range(1, len(word) if word not in GREEK.values() else 0):
+            last = known(word[k:])[0]
+            if known(word[:k])[0] and last and not (rated and word in self._rated and not any(map(self._moves, last))):
+                return True
+        return False
+
+    def _moves(self, name: str) -> bool:
+        """Whether a name of the system changes with time."""
+        return bool(self[name].atoms(AppliedUndef))
 
 
 def meant(written: str, names: Iterable[str]) -> list[str]:

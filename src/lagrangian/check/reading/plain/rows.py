@@ -34,6 +34,7 @@ from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.descriptions import amid_names, is_description, is_left_out, says_nothing
 from lagrangian.check.reading.prose.directions import without_directions
+from lagrangian.check.reading.prose.exercises import without_exercises
 from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
@@ -127,7 +128,7 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_headings(_STARRED.sub("T* ", without_sketches(text, words)))
+    text = without_headings(without_exercises(_STARRED.sub("T* ", without_sketches(text, words)), words))
     text = with_words_joined(without_combinations(without_conditions(text, words), words), words)
     text = without_directions(without_units(without_dashes(text, words), words), words)
     text = without_remarks(stated_remarks(text), words)

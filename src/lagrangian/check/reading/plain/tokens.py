@@ -12,7 +12,7 @@ from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.quantities.source import Source
-from lagrangian.quantities.units import lookup
+from lagrangian.quantities.units import joined, lookup
 from lagrangian.read.letters import key, undotted
 
 _LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
@@ -284,7 +284,8 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
     times, product = True, False
     argument = _ARGUMENT.search(text, max(0, at - 48), at) is not None
     while (match := _ONE.match(text, end)) is not None and text[match.end() : match.end() + 1] not in _GOES_ON:
-        unit, name = lookup(match["unit"]), match["unit"]
+        name = match["unit"]
+        unit = lookup(name) or lookup(next(iter(joined(name)), ""))  # Nms is N m s, all of them SI units
         own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
         below = below or "/" in match["by"]
         power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))

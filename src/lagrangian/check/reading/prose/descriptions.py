@@ -11,8 +11,9 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from lagrangian.check.reading.prose.levels import is_level
 from lagrangian.check.reading.prose.words import Words, function_of
-from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, is_common, is_level, is_prose, is_word
+from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, is_common, is_prose, is_word
 from lagrangian.read.letters import SPELLED, key
 
 _NAMED = re.compile(

@@ -29,6 +29,8 @@ _BEHIND = re.compile(
 )
 _LAST = re.compile(r"[^\W\d][\w\u0307\u0308]{0,40}\Z")
 _PART = re.compile(r"[;\n]|,(?!\d)")
+_IS_ZERO = re.compile(r"\s*+\\?[^\W\d]\w{0,23}+[ \t]*+=[ \t]*+0[ \t]*+")
+"""What is no equation with such a word behind it, but says where a name is 0: φ = 0 uphill."""
 _LONGEST = 400
 """The most characters of a formula in front of such a word."""
 _SHORT = 3
@@ -46,7 +48,12 @@ def without_directions(text: str, words: Words) -> str:
         at = match.start("said")
         part = _PART.split(text[max(0, at - _LONGEST) : at])[-1]
         way = match["way"]
-        if "=" not in part or words.known(way) or (len(way) <= _SHORT and words.is_product(way)):
+        if (
+            "=" not in part
+            or _IS_ZERO.fullmatch(part)
+            or words.known(way)
+            or (len(way) <= _SHORT and words.is_product(way))
+        ):
             continue
         last = _LAST.search(part)
         if last is None or _is_read(last.group(), words):

@@ -22,6 +22,12 @@ _TOKEN = re.compile(
 )
 _COMMANDS = frozenset(["frac", "tfrac", "dfrac", "cdot", "left", "right", "pi"])
 _ENDS = re.compile(r"[ \t]*(?:(?P<close>\$)|[,:)\]]|$|(?=[^\W\d_]{3}|(?:is|so|at|in|of|an|we|or|am|im)\b))")
+_ZERO = re.compile(r"0(?![\w.,]?\d)")
+_FIRST = re.compile(r"(?:^|[,;:(\n]|[^\W\d_]{4,23})[ \t]*\Z")
+"""What stands before a coordinate that is 0 and no factor: x = 0 with the spring relaxed."""
+_CLAUSES = re.compile(r"[,;:()]")
+LONGEST = 120
+"""The most characters of a part of a sentence on each side."""
 MOST = 200
 """The most sentences that are looked at."""
 
@@ -47,11 +53,20 @@ def _positions(text: str, moves: Callable[[str], bool], taken: Callable[[str], b
             name = left["name"].lstrip("\\")
             if not taken(name) or not moves(name):
                 continue
-            end = _end(text, left.end(), relaxed.end(), taken)
+            zero = _ZERO.match(text, left.end()) if _is_first(text, left.start(), relaxed) else None
+            end = zero.end() if zero is not None else _end(text, left.end(), relaxed.end(), taken)
             close = _ENDS.match(text, end, relaxed.end()) if end > left.end() else None
             if close is not None and (close["close"] is None) == (left["open"] == ""):
                 end = close.end("close") if close["close"] else end
                 yield left.start("open"), end, " " * (end - left.start("open"))
+
+
+def _is_first(text: str, at: int, said: re.Match[str]) -> bool:
+    """Whether no factor stands before a coordinate, and words for what is relaxed do in the same part of a sentence."""
+    before = text[max(said.start(), at - LONGEST) : at]
+    behind = text[at : min(said.end(), at + LONGEST)]
+    clause = _CLAUSES.split(before)[-1] + _CLAUSES.split(behind)[0]
+    return _FIRST.search(before) is not None and _RELAXED.search(clause) is not None
 
 
 def _end(text: str, at: int, last: int, taken: Callable[[str], bool]) -> int:

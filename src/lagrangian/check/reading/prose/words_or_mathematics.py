@@ -74,8 +74,6 @@ _ASIDE = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]
 _ENDS = re.compile(r"[\w\u0307\u0308)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
-_LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
-_PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
 _RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
 _OPENS = re.compile(r"[(\[\d]")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
@@ -236,7 +234,8 @@ def without_lead(text: str, words: Words) -> str:
         said = first and written == "I" and _spoken(match[1][word.end() :].split(maxsplit=1)[:1], words)
         own = first and is_word(written, words)
         common = spoken and len(written) > 1 and written.lower() in LINKING  # put this in …, where in is no i n
-        if is_common(written, words) or said or common or own:
+        ended = first and word.group().rstrip()[-1:] in ",:" and written.islower() and _is_new(written, words)
+        if is_common(written, words) or said or common or own or (ended and len(written) > 1):  # is wound up, u = R φ
             end = match.start(1) + word.end()
         spoken = own and end == match.start(1) + word.end() and word.group().rstrip()[-1:] not in ".,:"
     changed = stated and any(x.strip(",:.").lower() in CHANGING for x in text[:end].split())
@@ -341,19 +340,6 @@ def is_sentence(text: str, words: Words) -> bool:
     listed = _WORD.findall(text)
     said = sum(is_common(x, words) or is_word(x, words) for x in listed)
     return "=" not in text and said > MOST_NAMES and 2 * said > len(listed)
-
-
-def is_level(text: str, own: str, words: Words) -> bool:
-    """Whether a statement with words behind it only says where something is counted from, which a note tells: V = 0 at
-    the pivot, θ = 0 is downwards."""
-    match = _LEVEL.fullmatch(text)
-    if match is None or _PLACED.search(own) is None:
-        return False
-    moving = words.names.changes(match["name"])
-    if moving or match["name"].rstrip("*") in ("V", "U", "Epot", "E_pot", "Ep", "E_p"):
-        words.names.notes.setdefault(f"'{' '.join(own.split())}' was not judged: it says where {match['name']} is 0.")
-        return True
-    return False
 
 
 def moves(text: str) -> bool:
