@@ -55,6 +55,10 @@ PLAIN = {
     + SQUARE
     + "C11 = c, C12 = -m l phi' sin phi, C21 = 0, C22 = 0\n"
     + f"K11 = k, K12 = K21 = 0, K22 = 0\nG1 = 0, G2 = {H2}\n{FORCES}",
+    "listed wholes": "M(q) q̈ + C(q, q̇) q̇ + D q̇ + G(q) = f\n"
+    + SQUARE
+    + "C11 = 0, C12 = -m l φ̇ sin phi, C21 = 0, C22 = 0\nD = diag(c, 0)\n"
+    + f"G1 = k x\nG2 = {H2}\nf = (F, h tau)ᵀ",
     "table": f"{FORM}| entry | value |\n|---|---|\n| M₁₁ | {M11} |\n| M₁₂ = M₂₁ | {M12} |\n| M₂₂ | {M22} |\n"
     f"| h₁ | {H1} |\n| h₂ | {H2} |\n\n{FORCES}",
     "table without a title": f"{FORM}| M11 | {M11} |\n| M12 = M21 | {M12} |\n| M22 | {M22} |\n\n{COLUMN}{FORCES}",

@@ -90,7 +90,7 @@ _PLAIN = _Notation(
     front=r"(?<![\w'’′)+*/^=-])",
     behind=r"(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|(?<=[ \t])(?:with|where|mit|wobei)\b))",
     equals="=",
-    opened=r"\[",
+    opened=r"\[|diag[ ]?\(|\((?=[^\n=]{1,200},)",
     matrix=("[", ", ", "; ", "]"),
     derived="*{}''",
 )
@@ -109,7 +109,7 @@ _LATEX = _Notation(
     front=r"(?<![\w'^)+*/=}-])",
     behind=r"(?=[ \t]*+(?:$|[,;.]|\\[\])\\]|\\q?quad|\\end|\$|\\text))",
     equals="&?=",
-    opened=r"\\begin\{[bpv]?matrix|\\left[(\[]",
+    opened=r"\\begin\{[bpv]?matrix|\\left[(\[]|\\(?:mathrm|operatorname|text)\{diag\}|\((?=[^\n=]{1,200},)",
     matrix=(r"\begin{bmatrix}", " & ", r" \\ ", r"\end{bmatrix}"),
     derived=r" \ddot{{{}}}",
 )
