@@ -13,7 +13,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
 
 
 def values_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Symbol]:
@@ -73,3 +73,15 @@ def with_work_at_rest(
     }
     put = tuple(replace(x, expr=added[x.kind](x)) if x.kind in added else x for x in lines)
     return put if fits([x for x in put if x.kind in ("V", "L")]) else lines
+
+
+def without_constants(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict on an answer in deviations from rest, in which a wrong term is told without the weight that is
+    balanced at rest by what it should be: k (z − y) is, written out, k (z₀ − y₀), too."""
+    if verdict.right or not values_at_rest(truth, lines):
+        return verdict
+    findings: list[Finding] = []
+    for f in verdict.findings:
+        kept = tuple(d for d in f.differences if d.term.has(AppliedUndef) or d.written.has(AppliedUndef))
+        findings.append(replace(f, differences=kept) if kept and len(kept) < len(f.differences) else f)
+    return replace(verdict, findings=tuple(findings))

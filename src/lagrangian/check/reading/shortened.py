@@ -123,8 +123,8 @@ class AnswerScope(Scope):
         return begun[0] if len(begun) == 1 and len(begun[0]) == 1 else []
 
     def _is_product(self, word: str, *, rated: bool = True) -> bool:
-        """Whether a shortened name is two names of the system next to each other: al as a·l; of one that is ``rated`` in
-        the answer the second one moves."""
+        """Whether a shortened name is two names of the system next to each other: al as a·l; the second one moves if
+        the name is ``rated`` in the answer."""
         known = super().meanings
         for k in range(1, len(word) if word not in GREEK.values() else 0):
             last = known(word[k:])[0]
