@@ -72,8 +72,10 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
 
 def _is_force_of_damper(sides: Sequence[Tree]) -> bool:
-    """Whether a value begins with a minus and has no power, as the force of a damper does: drag D = -b x'. A dissipation
-    function is never negative."""
+    """Whether a value begins with a minus and has no power, as the force of a damper does: drag D = -b x'.
+
+    A dissipation function is never negative.
+    """
     return len(sides) == 2 and without_minus(sides[1])[1] and not _squares(sides[1])
 
 
