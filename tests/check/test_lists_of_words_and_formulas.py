@@ -79,6 +79,17 @@ def test_an_acceleration_in_a_list_is_used(said: str) -> None:
     assert wrong_lines(answer.replace("M x'' + m", "M x'' - m")) == [2]
 
 
+@pytest.mark.parametrize("letter", ["D", "R"])
+def test_a_force_in_the_letter_of_a_dissipation_function(letter: str) -> None:
+    """No dissipation function begins with a minus and is linear in a rate; one without a minus may be a wrong one."""
+    said = f"winch F, drag {letter} = -b x', cord C = -k (rho - a) x/rho,  rho^2 = x^2 + d^2\n"
+    used = BY_RHO.replace("- b x'", f"+ {letter}")
+    assert slider().check(said + BY_RHO).right
+    assert slider().check(said + used).right
+    assert 2 in wrong_lines(said.replace("-b x'", "-2 b x'") + used)
+    assert wrong_lines(f"rho^2 = x^2 + d^2\n{letter} = b x'\n{BY_RHO}") == [2]
+
+
 def test_what_cannot_be_read_is_told_and_does_not_decide() -> None:
     equations = BY_RHO.replace("rho", "sqrt(x^2 + d^2)")
     verdict = slider().check(f"{ITEMS}\n{equations}")

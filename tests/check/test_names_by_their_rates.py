@@ -43,6 +43,16 @@ def test_a_sum_and_a_multiple_of_rates() -> None:
     assert not rod().check(equations.replace("w^2/9", "w^2/3")).right
 
 
+@pytest.mark.parametrize("rate", ["dw/dt", "w'", "wdot"])
+def test_words_in_front_of_a_sum(rate: str) -> None:
+    """v is the speed of a mark on a tape that the motor winds: v = a φ̇ + ṙ."""
+    said = f"w = speed of the mark on the tape, so {rate} = r'' + a phi''.\n"
+    equations = "m (r'' - r (w - r')^2/a^2) + k (r - a) = 0\n(J + m r^2) (w' - r'')/a + 2 m r r' (w - r')/a = M"
+    assert rod().check(said + equations).right
+    assert not rod().check(said.replace("a phi", "2 a phi") + equations).right
+    assert not rod().check(said.replace("+ a phi", "- a phi") + equations).right
+
+
 def test_latex_too() -> None:
     said = r"$\dot\omega = \ddot\varphi$, $m(\ddot r - r\omega^2) + k(r - a) = 0$, "
     said += r"$(J + m r^2)\dot\omega + 2 m r\dot r\omega = M$"

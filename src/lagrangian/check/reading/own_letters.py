@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 from lark import Token, Tree
 
 from lagrangian.check.reading.energy_parts import inertia_letters
-from lagrangian.check.reading.nodes import names_in, only_name
+from lagrangian.check.reading.nodes import names_in, only_name, without_minus
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subjects
 from lagrangian.model import Model
@@ -41,6 +41,7 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if own and (moving[k] or fixed or any(key(x) in rates for x in listed)):
             found.add("P")
         if moving[k]:
+            found |= {key(str(named[0]))} if kind == "D" and _is_force_of_damper(sides) else set()
             continue
         listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
         others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
@@ -68,6 +69,14 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         ):
             found.add(key(str(named[0])))
     return frozenset(found)
+
+
+def _is_force_of_damper(sides: Sequence[Tree]) -> bool:
+    """Whether a value begins with a minus and has no power, as the force of a damper does: drag D = -b x'.
+
+    A dissipation function is never negative.
+    """
+    return len(sides) == 2 and without_minus(sides[1])[1] and not _squares(sides[1])
 
 
 def _is_constant(

@@ -57,7 +57,7 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
     for match in islice(_LEGEND.finditer(text), MOST):
         words = re.findall(r"[^\W\d_]+", match["words"])
         spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
-        changed = any(x.lower() in CHANGING for x in words)
+        changed = any(x.lower() in CHANGING for x in words) or _is_rate(match["words"], match["new"])
         if spoken and not changed and _is_new(match, text, exact) and _is_formula(match["value"], taken):
             edits.append((match.start("new"), match.start("value"), f"{match['new']}{match['of'] or ''} = "))
     for match in islice(_SAID.finditer(text), MOST):
@@ -66,6 +66,14 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
             edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
             edits.append((*match.span("end"), ";"))
     return written.edited(apart(edits))
+
+
+def _is_rate(words: str, name: str) -> bool:
+    """Whether words end in the rate of a name, of which the formula is the value: w … speed, so dw/dt = phi''."""
+    return (
+        re.search(rf"(?<!\w)(?:d[ ]?{re.escape(name)}[ ]?/[ ]?d[ ]?t|{re.escape(name)}_?d{{1,2}}(?:ot)?)\Z", words)
+        is not None
+    )
 
 
 def _is_new(match: re.Match[str], text: str, exact: Callable[[str], bool]) -> bool:
