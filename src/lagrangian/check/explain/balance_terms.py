@@ -37,6 +37,8 @@ EXCHANGED = 1.2
 """What a sine for a cosine costs."""
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
 """What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
+CUT = 1.0
+"""What it costs more that it is the mass of another body times its acceleration: the forces between them stand for it."""
 NEW_ANGLE = 0.4
 """What it costs more to lack a component along an angle that the line has not."""
 OTHER_INERTIA = 1.7
@@ -199,6 +201,8 @@ def _missing(
     force is lacking where the rest of it stands."""
     apart = {x for own, _ in _efforts(truth) for x in own} & laws.letters
     bases = [(cost + FOREIGN * bool(bounded.letters(x) & apart), x) for cost, x in _bases(truth, expr, forces)]
+    masses = {p.symbol for p in truth.model.parameters if is_mass(truth, p.symbol)} & laws.letters
+    bases = [(cost + CUT * (_moves(truth, x) and bool(bounded.letters(x) & masses)), x) for cost, x in bases]
     bases += [(MISSING, x) for x in laws.elsewhere]
     arms = list(_arms(truth, expr))
     exprs = [x for _, x in (*bases, *arms)]
@@ -241,6 +245,13 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
         for kind in kinds:
             found.setdefault(cast("sp.Expr", m * kind), MISSING + BODY + (0 if expr.has(m) else FOREIGN))
     yield from ((cost, x) for x, cost in found.items())
+
+
+def _moves(truth: Reference, term: sp.Expr) -> bool:
+    """Whether a term has an acceleration or a product of rates."""
+    rates = [c.rate for c in truth.model.coordinates]
+    powers = term.as_powers_dict()
+    return term.has(*(c.acceleration for c in truth.model.coordinates)) or sum(int(powers.get(x, 0)) for x in rates) > 1
 
 
 def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
