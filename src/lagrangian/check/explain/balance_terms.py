@@ -38,7 +38,7 @@ EXCHANGED = 1.2
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
 """What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
 CUT = 1.0
-"""What it costs more that it is the mass of another body times its acceleration: the forces between them stand for it."""
+"""What it costs more that it is another body's mass times its acceleration: the forces between them stand for it."""
 NEW_ANGLE = 0.4
 """What it costs more to lack a component along an angle that the line has not."""
 OTHER_INERTIA = 1.7
