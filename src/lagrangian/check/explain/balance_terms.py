@@ -17,6 +17,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
+from lagrangian.check.explain.combined_rows import is_mass as is_mass
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
@@ -263,11 +264,6 @@ def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
             yield bounded.letters(truth.expand(e.k)), truth.expand(e.k * e.extension(model))
         elif isinstance(e, Damper) and e.b is not None:
             yield bounded.letters(truth.expand(e.b)), truth.expand(e.b * e.rate(model))
-
-
-def is_mass(truth: Reference, letter: sp.Symbol) -> bool:
-    """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
-    return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
 
 
 def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
