@@ -108,7 +108,7 @@ class Lines:
                 results += [error] if may_be_result(statements[i].source.text) else []
             if len(found) >= MOST_LACKING or any(e.code == "E703" for e in found):
                 break
-        for i, line in contradicting(self.names, [s.source for s in statements]):
+        for i, line in contradicting(self.names, [s.source for s in statements], self._made):
             self._made.setdefault(i, []).append(line)
         lines = without_expressions(self._made, statements, self.names)
         accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
