@@ -65,4 +65,4 @@ def test_a_script_letter_is_the_lagrangian() -> None:
     verdict = swing().check(TEX)
     assert verdict.right, str(verdict)
     wrong = swing().check(TEX.replace("- 2 k a^2", "+ 2 k a^2"))
-    assert [f.line.number for f in wrong.findings if not f.status.right and not f.follows][0] == 1
+    assert next(f.line.number for f in wrong.findings if not f.status.right and not f.follows) == 1
