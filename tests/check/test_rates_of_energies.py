@@ -99,3 +99,11 @@ def test_a_prime_is_the_slope_where_only_so_the_terms_beside_it_fit(rate: str, r
     if not right:
         assert "the factor 2 too much" in str(verdict.mistake.what)
         assert "4" not in str(verdict.mistake.what)  # no ψ̇⁴
+
+
+def test_a_written_derivative_by_time_is_no_slope() -> None:
+    for rate in ("dI/dt psi'^3", "(dI/dt) psi'^3", "d/dt(I) psi'^3"):
+        verdict = ladder().check(
+            f"{SHORT}\ndT/dt = I psi' psi'' + 1/2 {rate}\n{ROW.replace('(dI/dpsi)', f'(-{INNER})')}"
+        )
+        assert not all(f.status.right for f in verdict.findings if f.line.number == 2), rate

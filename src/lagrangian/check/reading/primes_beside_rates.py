@@ -6,11 +6,12 @@ dT/dt = A θ' θ'' + A' θ'³ = A θ' θ'' − 2 m r² …       and the side be
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 
 import sympy as sp
-from lark import Tree
+from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
@@ -20,6 +21,7 @@ from lagrangian.check.reading.nodes import names_in
 from lagrangian.model.names import time
 from lagrangian.read.letters import key
 
+_PRIME = re.compile(r"(?:\([^()]{1,20}\))?[ ]?['’′](?!['’′])")
 LONGEST = 200
 """The most terms of a side, multiplied out, whose dots are counted."""
 
@@ -50,14 +52,23 @@ MANY, ALIKE = False, True
 
 
 def _own_functions(sides: Sequence[Tree], reader: Meaning) -> dict[str, str]:
-    """The answer's own names that stand with one prime, and are functions of one coordinate alone, as written."""
+    """The answer's own names that stand with a prime, and are functions of one coordinate alone, as written; those that
+    have a dot, or dI/dt, anywhere in the statement are rates."""
     found: dict[str, str] = {}
-    for token in (token for side in sides for token, changing in names_in(side) if changing):
+    changing = [token for side in sides for token, changes in names_in(side) if changes]
+    dotted = {key(str(x)) for x in changing if not _has_prime(x, reader)}
+    for token in (x for x in changing if key(str(x)) not in dotted):
         name = str(token)
         _, value = reader.names.own.get(key(name), ("", None))
         if isinstance(value, sp.Expr) and slope_by(value, reader) is not None:
             found[key(name)] = name
     return found
+
+
+def _has_prime(token: Token, reader: Meaning) -> bool:
+    """Whether one prime is written behind a name."""
+    end = (token.start_pos or 0) + len(token)
+    return _PRIME.match(reader.source.text, end) is not None
 
 
 def slope_by(value: sp.Expr, reader: Meaning) -> sp.Expr | None:
