@@ -73,3 +73,37 @@ def test_a_prime_of_a_function_of_a_coordinate_is_its_slope_before_a_square(line
     )
     found = [f.status.right for f in verdict.findings if f.line.number == 2]
     assert found and all(found) == right, str(verdict)
+
+
+SHORT = "T = 1/2 I psi'^2, I = m l^2/3 + M l^2/9 + (M/3 + mw) l^2 cos(psi)^2"
+INNER = "2 (M/3 + mw) l^2 sin(psi) cos(psi)"
+
+
+@pytest.mark.parametrize(
+    ("rate", "right"),
+    [
+        ("dT/dt = I psi' psi'' + 1/2 I' psi'^3", True),
+        (f"dT/dt = I psi' psi'' + 1/2 I' psi'^3 = I psi' psi'' - 1/2 {INNER} psi'^3", True),
+        ("dT/dt = I psi' psi'' + 1/2 I' psi'^2", True),
+        ("dT/dt = I psi' psi'' + I' psi'^3", False),
+        (f"dT/dt = I psi' psi'' + I' psi'^3 = I psi' psi'' - {INNER} psi'^3", False),
+        ("dT/dt = I psi' psi'' + I' psi'^2", False),
+    ],
+)
+def test_a_prime_is_the_slope_where_only_so_the_terms_beside_it_fit(rate: str, right: bool) -> None:
+    """I' ψ'³ beside I ψ' ψ'' has a dot too many with the rate; I' ψ'² has as many as it."""
+    row = ROW if right else ROW_TWICE
+    verdict = ladder().check(f"{SHORT}\n{rate}\n{row.replace('(dI/dpsi)', f'(-{INNER})')}")
+    assert all(f.status.right for f in verdict.findings if f.line.number == 2) == right, str(verdict)
+    assert verdict.right == right
+    if not right:
+        assert "the factor 2 too much" in str(verdict.mistake.what)
+        assert "4" not in str(verdict.mistake.what)  # no ψ̇⁴
+
+
+def test_a_written_derivative_by_time_is_no_slope() -> None:
+    for rate in ("dI/dt psi'^3", "(dI/dt) psi'^3", "d/dt(I) psi'^3"):
+        verdict = ladder().check(
+            f"{SHORT}\ndT/dt = I psi' psi'' + 1/2 {rate}\n{ROW.replace('(dI/dpsi)', f'(-{INNER})')}"
+        )
+        assert not all(f.status.right for f in verdict.findings if f.line.number == 2), rate

@@ -44,6 +44,7 @@ from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.twice_said import with_twice_said
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
+from lagrangian.check.explain.whole_terms import with_whole_terms
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
 from lagrangian.check.explained import explained
 from lagrangian.check.general import untrue_in_general
@@ -126,7 +127,8 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
         verdict = with_parts_judged(truth, written, verdict)
     if not verdict.right and hint:
         if explain:
-            verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
+            verdict = with_wrong_terms(truth, written, with_whole_terms(truth, verdict))
+            verdict = with_terms_of_equations(truth, said.lines, verdict)
             verdict = with_sides(with_terms_as_written(truth, verdict))
             verdict = with_fitting_advice(truth, said.lines, with_terms_as_they_stand(truth, verdict))
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))

@@ -25,6 +25,7 @@ from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
+from lagrangian.check.explain.same_residuals import with_same_residuals
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.told_truly import told_truly
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
@@ -220,7 +221,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     verdict = with_other_components(
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
-    verdict = _apart(derivation, answer, fitting(told_truly(verdict)))
+    verdict = _apart(derivation, answer, fitting(told_truly(with_same_residuals(truth_of(derivation), verdict))))
     return _told(verdict, answer, decides.notes)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
@@ -32,6 +33,8 @@ class Status(StrEnum):
         return self not in (Status.INCOMPLETE, Status.WRONG)
 
 
+_SQUARE = re.compile(r"(?:²|(?:\^|\*\*)[ ]?\{?[ ]?2[ ]?\}?)[ \t$&]*\Z")
+"""How the left side of a statement ends that is a square."""
 OWN_SLOPES = ("T-rate", "T-slope", "V-slope", "D-slope")
 """The kinds of lines that give derivatives of the answer's own T*, V and D that equations add up."""
 OWN_DERIVATIVES = ("T-p", *OWN_SLOPES)
@@ -71,6 +74,11 @@ class AnsweredLine(Brief):
             letter = {"Xi": "Ξ", "p": "∂L/∂ξ̇", "p-rate": "d/dt ∂L/∂ξ̇", "slope": "∂L/∂ξ"}[self.kind]
             what = f"{letter} of {self.name}"
         return f"line {self.number}" + (f" ({what})" if what else "")
+
+    @property
+    def of_square(self) -> bool:
+        """Whether a definition gives the square of its name: ω² = k/m."""
+        return self.kind == "definition" and _SQUARE.search(self.text.partition("=")[0]) is not None
 
     @property
     def opening(self) -> str:

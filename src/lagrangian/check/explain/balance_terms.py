@@ -17,6 +17,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
+from lagrangian.check.explain.combined_rows import is_mass as is_mass
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
@@ -37,6 +38,8 @@ EXCHANGED = 1.2
 """What a sine for a cosine costs."""
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
 """What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
+CUT = 1.0
+"""What it costs more that it is another body's mass times its acceleration: the forces between them stand for it."""
 NEW_ANGLE = 0.4
 """What it costs more to lack a component along an angle that the line has not."""
 OTHER_INERTIA = 1.7
@@ -199,6 +202,8 @@ def _missing(
     force is lacking where the rest of it stands."""
     apart = {x for own, _ in _efforts(truth) for x in own} & laws.letters
     bases = [(cost + FOREIGN * bool(bounded.letters(x) & apart), x) for cost, x in _bases(truth, expr, forces)]
+    masses = {p.symbol for p in truth.model.parameters if is_mass(truth, p.symbol)} & laws.letters
+    bases = [(cost + CUT * (_moves(truth, x) and bool(bounded.letters(x) & masses)), x) for cost, x in bases]
     bases += [(MISSING, x) for x in laws.elsewhere]
     arms = list(_arms(truth, expr))
     exprs = [x for _, x in (*bases, *arms)]
@@ -243,6 +248,13 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
     yield from ((cost, x) for x, cost in found.items())
 
 
+def _moves(truth: Reference, term: sp.Expr) -> bool:
+    """Whether a term has an acceleration or a product of rates."""
+    rates = [c.rate for c in truth.model.coordinates]
+    powers = term.as_powers_dict()
+    return term.has(*(c.acceleration for c in truth.model.coordinates)) or sum(int(powers.get(x, 0)) for x in rates) > 1
+
+
 def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
     """The letters of linear springs and dampers, and their whole forces: where one is a sum, c (θ′ + x′/R), it stands
     in a balance of one end as it is."""
@@ -252,11 +264,6 @@ def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
             yield bounded.letters(truth.expand(e.k)), truth.expand(e.k * e.extension(model))
         elif isinstance(e, Damper) and e.b is not None:
             yield bounded.letters(truth.expand(e.b)), truth.expand(e.b * e.rate(model))
-
-
-def is_mass(truth: Reference, letter: sp.Symbol) -> bool:
-    """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
-    return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
 
 
 def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:

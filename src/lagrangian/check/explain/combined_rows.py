@@ -360,8 +360,15 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
         listed += [sp.tan(angle), 1 / sp.tan(angle), sp.sin(angle), sp.cos(angle)]
     lengths = [*ways, *_roots(truth)][:MOST_ANGLES]
     listed += [f for q in lengths for x in letters for f in (q / x, x / q)]
+    masses = [x for x in letters if is_mass(truth, x)]
+    listed += [f for x in masses for y in masses if x != y for f in ((x + y) / x, x / (x + y))]
     values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
     yield from zip(listed, values, strict=True)
+
+
+def is_mass(truth: Reference, letter: sp.Symbol) -> bool:
+    """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
+    return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
 
 
 def _roots(truth: Reference) -> list[sp.Expr]:

@@ -56,7 +56,7 @@ class OwnName:
     @property
     def key(self) -> str:
         """The key of the name, also of its rate."""
-        return _named(self.symbol.args[0] if isinstance(self.symbol, sp.Derivative) else self.symbol)
+        return _named(self.symbol.args[0] if isinstance(self.symbol, (sp.Derivative, sp.Pow)) else self.symbol)
 
 
 def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
@@ -102,7 +102,8 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
         name = line.name or ""
         if line.kind == "definition" and _WORD.fullmatch(name) and key(name) in used - taken:
             found.setdefault(name, set()).add(line.expr)
-            symbols[name] = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
+            own = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
+            symbols[name] = cast("sp.Expr", own**2) if line.of_square else own
     anywhere = {name for line in lines for name in names_in(line)}
     stated = {name for line in wrong if (name := _stated_in(line))}
     for d in truth.model.definitions:
@@ -112,7 +113,11 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     of_system = {d.name for d in truth.model.definitions}
     named = [OwnName(symbols[x], *values, given=x in of_system) for x, values in found.items() if len(values) == 1]
     named = [x for x in named if x.value.args and 0 < bounded.operations(x.value) <= LONGEST_VALUE]
-    named = [x for x in named if not _has_unknown(x.value, symbols.values()) and not _is_kinetic(x)]
+    named = [
+        x
+        for x in named
+        if not _has_unknown(x.value, [y.as_base_exp()[0] for y in symbols.values()]) and not _is_kinetic(x)
+    ]
     rated = {name for line in lines for name in _rated_in(line)}
     every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]

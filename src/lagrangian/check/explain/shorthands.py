@@ -1,7 +1,8 @@
 """Which value a shorthand of constants should have for the first wrong line to be right: μ = (m l − M d) g.
 
-The line, with the name in place of its value, is linear in it. The value is sought among those that one slip would turn
-into what is written: a sign, a factor 2, a letter too few or too many in one term.
+The line, with the name in place of its value, is linear in it, or in its square where ω² = k/M is what is written. The
+value is sought among those that one slip would turn into what is written: a sign, a factor 2, a letter too few or too
+many in one term, one mass for two.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.apart import told_apart
+from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of
 from lagrangian.check.explain.said_wrongly import InWords, SaidWrongly
 from lagrangian.check.held import held
@@ -45,10 +47,11 @@ def right_values(
     truth: Reference, line: AnsweredLine, first: AnsweredLine, symbol: sp.Expr
 ) -> Iterator[tuple[sp.Expr, list[SaidWrongly]]]:
     """The values of a shorthand ``line`` with which the ``first`` wrong line, that has its ``symbol``, may be right."""
-    found = _linear(truth, first, symbol)
+    power = 2 if line.of_square else 1
+    found = _linear(truth, first, cast("sp.Expr", symbol**power), symbol)
     if found is None:
         return
-    values, slope, rest = [*_slips(truth, line.expr)], *found
+    values, (slope, rest) = [*_slips(truth, line.expr)], found
     on = held(truth) if truth.derivation.multipliers else truth
     if on is None or not values:
         return
@@ -58,11 +61,11 @@ def right_values(
         return
     for value, own in zip(values, compiled[2:], strict=True):
         if (np.abs(compiled[0] * own + compiled[1]) <= NEAR * np.maximum(scale, scale.max() * NEAR)).all():
-            yield value, [_said(truth, line, value)]
+            yield cast("sp.Expr", value ** sp.Rational(1, power)), [_said(truth, line, value)]
 
 
-def _linear(truth: Reference, line: AnsweredLine, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    """The slope of left minus right by a symbol, and the rest; None if it is not linear in it."""
+def _linear(truth: Reference, line: AnsweredLine, of: sp.Expr, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """The slope of left minus right by a symbol or its square, and the rest; None if it is not linear in it."""
     expr = line.expr
     if line.kind != "equation":
         right = right_value(truth, line, index_of(truth, line.name))
@@ -70,9 +73,9 @@ def _linear(truth: Reference, line: AnsweredLine, symbol: sp.Expr) -> tuple[sp.E
             return None
         expr = cast("sp.Expr", expr - right)
     mark = sp.Dummy()
-    put = cast("sp.Expr", expr.xreplace({symbol: mark}))
+    put = cast("sp.Expr", expr.xreplace({of: mark}))
     slope = bounded.diff(put, mark)
-    if slope == 0 or slope.has(mark):
+    if slope == 0 or put.has(symbol) or slope.has(mark):
         return None
     return slope, cast("sp.Expr", put.xreplace({mark: sp.S.Zero}))
 
@@ -89,6 +92,11 @@ def _slips(truth: Reference, written: sp.Expr) -> Iterator[sp.Expr]:
         for factor in (*NUMBERS, *(y for x in letters for y in (x, 1 / x))):
             if len(own) > 1 or factor.is_number or factor.free_symbols <= held:
                 yield cast("sp.Expr", others + factor * term)
+    masses = [x for x in letters if is_mass(truth, x)]
+    for x in (x for x in masses if x in held):
+        yield from (cast("sp.Expr", written.xreplace({x: x + y})) for y in masses if y != x)
+    for whole in (x for x in written.atoms(sp.Add) if x != written and x.free_symbols <= set(masses)):
+        yield from (cast("sp.Expr", written.xreplace({whole: whole - x})) for x in whole.args)
 
 
 def _said(truth: Reference, line: AnsweredLine, value: sp.Expr) -> SaidWrongly:
@@ -99,6 +107,7 @@ def _words(truth: Reference, line: AnsweredLine, value: sp.Expr) -> InWords:
     """What is right and what is written, in the form in which this is written."""
     s = quantities_of(truth).of
     shown = cast("sp.Expr", sp.factor_terms(value) if not line.expr.is_Add else value)
-    of = Sayable(KIND, None, ("value of ", Name(str(line.name))), value, lambda _: Effect())
+    name = cast("sp.Expr", sp.Symbol(str(line.name)) ** 2) if line.of_square else Name(str(line.name))
+    of = Sayable(KIND, None, ("value of ", name), value, lambda _: Effect())
     letters: frozenset[sp.Basic] = frozenset(bounded.letters(value) | bounded.letters(line.expr))
     return InWords(of, (shown,), (line.expr,), letters, told_apart(s, value, line.expr), WHY)

@@ -19,6 +19,7 @@ from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there
 from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.readings_compared import open_findings
+from lagrangian.check.terms.pieces import partner
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -27,6 +28,8 @@ COUNTING = ("element_forgotten", "gravity_forgotten", "translation_forgotten", "
 """Names of mistakes by which one of several equal bodies counts no time or twice."""
 HALF = ("half_forgotten", "spring_half_forgotten")
 """Names of mistakes by which there is no ½ in an energy."""
+SIGNS = ("spring_sign", "gravity_sign")
+"""Names of mistakes in the sign of an energy."""
 OF_LETTERS = (
     "not_squared",
     "squared",
@@ -107,7 +110,7 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     if (blamed := _BLAMES.match(said)) is not None:
         own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
         return bool(own) and all(f.status.right for f in own)
-    if _is_of_right_slope(mistake, verdict) or _is_of_numbers(mistake, verdict):
+    if _is_of_right_slope(mistake, verdict) or _is_of_numbers(mistake, verdict) or _has_its_sign(mistake, verdict):
         return True
     if mistake.name in HALF and any(_has_its_half(f, d) for f, d in _differing(mistake, verdict)):
         return True
@@ -137,6 +140,21 @@ def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
     if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
         return False
     return not any(f.line.expr.free_symbols - {time} for f in wrong)
+
+
+def _has_its_sign(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a sign of V is said to be wrong where V has the terms of this element with their signs, and sin² in
+    place of cos²: that is the same but for a constant, and it is not what was written."""
+    if mistake.name not in SIGNS:
+        return False
+    told = [d for f, d in _differing(mistake, verdict) if f.line.kind == "V"]
+    return bool(told) and all(d.kind == "coefficient" and _turned(d) for d in told)
+
+
+def _turned(difference: TermDifference) -> bool:
+    """Whether a term has the sine of what should be the cosine, or the other way, and is else as it should be."""
+    functions = difference.term.atoms(sp.sin, sp.cos)
+    return bool(functions) and difference.written == difference.term.xreplace({x: partner(x) for x in functions})
 
 
 def _has_its_half(finding: Finding, difference: TermDifference) -> bool:

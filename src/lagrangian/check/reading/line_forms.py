@@ -27,6 +27,7 @@ from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
 _SIDE = re.compile(r"[=,;]")
+_EQUALS = re.compile(r"(?<![<>:!=])=(?![=>])")
 _NUMBER = re.compile(r"\s*+[(\[]?\s*+(\d{1,2})\s*+[)\]]?\s*+[.:]?\s*+")
 
 
@@ -239,13 +240,14 @@ def entries_of(token: Token, value: Value, side: Tree, reader: Meaning) -> list[
 def made_line(
     kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
 ) -> AnswerLine:
-    """Make the line; its place is that of its first side, and i = q′ names q. Raises `ParseError` if only one side is a
-    matrix.
+    """Make the line; its place is that of its first side, or of its last one if that goes on in another line of text
+    what was equal before, v² = … ⏎ = …; and i = q′ names q. Raises `ParseError` if only one side is a matrix.
     """
     if lhs is not None and isinstance(lhs, MatrixBase) != isinstance(rhs, MatrixBase):
         reader.fail("a single quantity cannot equal a matrix", a, fix="write one equation per line")
     source = reader.source
     start = min(start_of(a), start_of(b))
+    start = start_of(b) if _goes_on(source, start, start_of(b)) else start
     tokens = (str(token) for side in (a, b) for token, _ in names_in(side))
     names = {key(x) for token in tokens for x in (undotted(token)[0], *(x for _, x in spelled_rates(token)))}
     values = [reader.names.own[x][1] for x in names if x in reader.names.own]
@@ -255,6 +257,12 @@ def made_line(
     text, parts = " ".join(source.text.split()), _summands(kind, lhs, a, b, reader)
     typed = typed_as(source, text)
     return AnswerLine(kind, lhs, rhs, name, source.at(start), text, frozenset(names | rates), parts, typed)
+
+
+def _goes_on(source: Source, start: int, last: int) -> bool:
+    """Whether the side that begins at ``last`` is a third or later one of a statement, in a line of its own."""
+    before = source.text[:last]
+    return len(_EQUALS.findall(before)) > 1 and source.at(start).line != source.at(last).line
 
 
 def typed_as(source: Source, text: str) -> str:

@@ -50,6 +50,7 @@ from lagrangian.check.reading.placeholders import (
     multiple_of_energy,
     slope_of_L,
 )
+from lagrangian.check.reading.primes_beside_rates import values_beside_rates
 from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
@@ -109,7 +110,7 @@ class Lines:
                 results += [error] if may_be_result(statements[i].source.text) else []
             if len(found) >= MOST_LACKING or any(e.code == "E703" for e in found):
                 break
-        for i, line in contradicting(self.names, [s.source for s in statements]):
+        for i, line in contradicting(self.names, [s.source for s in statements], self._made):
             self._made.setdefault(i, []).append(line)
         lines = without_expressions(self._made, statements, self.names)
         accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
@@ -223,7 +224,7 @@ class Lines:
         if self.subjects.names_sides(subject, sides):
             left_out(sides[0], reader.value(sides[0]), reader)
             return self._equations(sides[1:], reader)
-        values = [reader.value(side) for side in sides[1:]]
+        values = values_beside_rates(sides[1:], reader)
         told = [tells(subject.kind, value, values[k + 1 :], self.names) for k, value in enumerate(values)]
         for side, value, judged in zip(sides[1:], values, told, strict=True):
             if not judged:
@@ -345,7 +346,7 @@ class Lines:
         ]
 
     def _equations(self, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
-        values = [reader.value(side) for side in sides]
+        values = values_beside_rates(sides, reader)
         if len(values) == 1:
             listed = isinstance(values[0], MatrixBase)
             said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3

@@ -35,6 +35,8 @@ class Meaning(ExpressionReader):
     def __init__(self, source: Source, names: Names, budget: ReadingBudget, kind: str | None = None) -> None:
         super().__init__(source, names.scope)
         self.names, self.budget, self.energy = names, budget, kind in ENERGIES
+        self.slopes: dict[str, str] = {}
+        """The names of the answer, functions of one coordinate, whose primes are slopes."""
         self._done: dict[int, Value] = {}
 
     def value(self, node: Node) -> Value:
@@ -79,6 +81,9 @@ class Meaning(ExpressionReader):
         order = dots + len(primes or "")  # ydd is y'', which may be a column
         if not order:
             return value
+        if order == 1 and key(base) in self.slopes:
+            whole = self.names.model.expand(value)
+            return self._differentiated(whole, next(iter(whole.atoms(AppliedUndef))), token)
         if value.has(AppliedUndef, time) and order <= MAX_ORDER:
             return self._rated(value, order, token)
         return super()._name(node)

@@ -6,7 +6,7 @@ they contradict each other, and an answer must not be right by the one that happ
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
@@ -27,8 +27,11 @@ PLACES = 2
 """The random places at which they are compared; what differs there is judged exactly."""
 
 
-def contradicting(names: Names, sources: Sequence[Source]) -> Iterator[tuple[int, AnswerLine]]:
-    """A line for each two values of a name of which one is used and the other is not, with the number of its statement.
+def contradicting(
+    names: Names, sources: Sequence[Source], made: Mapping[int, Sequence[AnswerLine]]
+) -> Iterator[tuple[int, AnswerLine]]:
+    """A line for each two values of a name of which one is used and the other is not, with the number of its statement;
+    its place is that of the last of the lines ``made`` of this.
 
     Values that cannot be judged, a number beside a formula or a force beside another, are told in a note.
     """
@@ -41,7 +44,8 @@ def contradicting(names: Names, sources: Sequence[Source]) -> Iterator[tuple[int
                 names.notes.setdefault(f"'{told}' was not judged: the value that is used is another one.")
                 continue
             kind: Kind = "equation" if accelerates(a) or accelerates(b) else "identity"
-            yield i, AnswerLine(kind, a, b, None, sources[i].at(0), told)
+            last = made.get(i)
+            yield i, AnswerLine(kind, a, b, None, last[-1].place if last else sources[i].at(0), told)
 
 
 def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:

@@ -22,7 +22,8 @@ _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
 _SAYS = r"(?:is|ist|means|denotes|abbreviates|stands[ \t]for|bezeichnet|bedeutet|steht[ \t]für)"
 _STATED = re.compile(
-    rf"(?:^|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|{_SAYS}\b)",
+    rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
+    rf"(?:=(?![=>])|{_SAYS}\b)",
     re.MULTILINE,
 )
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)

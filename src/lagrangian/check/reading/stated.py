@@ -67,11 +67,12 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
 def own_kinetic(own: Mapping[str, tuple[str, Any]]) -> str | None:
     """Return the one name of an answer's own, with its values by their keys, that is a T with an index and has squares
     of rates: T_rel = m x'^2/2; None if there is none, or more than one."""
-    found = [base for base, (_, value) in own.items() if _OF_T.fullmatch(base) and _is_kinetic(value)]
+    found = [base for base, (_, value) in own.items() if _OF_T.fullmatch(base) and has_squares(value)]
     return found[0] if len(found) == 1 else None
 
 
-def _is_kinetic(value: Any) -> bool:
+def has_squares(value: Any) -> bool:
+    """Whether a value has squares of rates and nothing that is differentiated twice, as a kinetic energy has."""
     rates = value.atoms(sp.Derivative) if isinstance(value, sp.Expr) else set[Any]()
     squares = isinstance(value, sp.Expr) and any(value.has(r**2) for r in rates)
     return squares and all(r.derivative_count == 1 for r in rates)

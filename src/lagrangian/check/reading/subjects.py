@@ -29,7 +29,7 @@ from lagrangian.check.reading.nodes import (
     without_minus,
 )
 from lagrangian.check.reading.placeholders import ENERGIES
-from lagrangian.check.reading.stated import energy_of, momentum_of
+from lagrangian.check.reading.stated import energy_of, has_squares, momentum_of
 from lagrangian.model import Model
 from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
@@ -310,9 +310,14 @@ class Subjects:
             return Subject("p", momentum)
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
-    def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr, sp.Expr, str] | None:
+    def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr | None, sp.Expr, str | None] | None:
         """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
-        one of its ``sides``, trees and values, perhaps with a minus: as a line less its place."""
+        one of its ``sides``, trees and values, perhaps with a minus, or of ℒ where the system defines an L: as a line
+        less its place."""
+        lengths = [d.symbol for d in self.model.definitions if d.name == "L"]
+        if sides[0][1] in lengths and has_squares(sides[1][1]):
+            self.names.stated["L"] = sides[1][1]
+            return "L", None, sides[1][1], None
         for (whole, own), (_, value) in (sides, sides[::-1]):
             side, minus = without_minus(whole)
             own, value = (-own, -value) if minus else (own, value)
