@@ -20,6 +20,7 @@ from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
+from lagrangian.check.explain.claims_checked import with_claims_checked
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
@@ -220,7 +221,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     verdict = with_other_components(
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
-    verdict = _apart(derivation, answer, fitting(told_truly(verdict)))
+    verdict = _apart(derivation, answer, fitting(with_claims_checked(told_truly(verdict))))
     return _told(verdict, answer, decides.notes)
 
 
