@@ -29,6 +29,7 @@ from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.told_truly import told_truly
+from lagrangian.check.explain.uncovered import with_uncovered_terms
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.named_accelerations import with_accelerations
@@ -229,7 +230,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 
 def _claims_checked(verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    return with_claims_checked(with_written_deflections(verdict))
+    return with_uncovered_terms(with_claims_checked(with_written_deflections(verdict)))
 
 
 def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:
