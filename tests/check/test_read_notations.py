@@ -92,6 +92,7 @@ def test_dots_and_functions_as_they_are_copied(written: str) -> None:
     "before",
     [
         *("ad a) ", "ad b) ", "zu 1) ", "zu (1): ", "zu 1: ", "to (ii) ", "Eq. 3: ", "Teil a) ", "θ: ", "a) θ: "),
+        *("Exercise 3 c)   ", "Problem 2. b) ", "Aufgabe 4 a) ", "Task 3) "),
         *("θ) ", "b) ", "(i)  ⇒  ", "(ii)  ⇒  ", "(iii) => ", "(1) ⇒ from (2): ", "(i) ⇒ eq θ: "),
     ],
 )

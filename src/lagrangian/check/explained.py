@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian.check.coordinates.tried import new_names
 from lagrangian.check.explain.candidates import too_long
+from lagrangian.check.explain.combinations_meant import MeantCombination, as_combinations, open_equations
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.divided_by_a_part import divided_by_a_part
-from lagrangian.check.explain.mistakes import mistakes
+from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.explain.numerators import without_other_terms
 from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.terms_alone import LEFT_OVER
@@ -17,7 +19,7 @@ from lagrangian.check.names.spelling import Spelling, not_there
 from lagrangian.check.reading import is_placeholder
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Status, Verdict
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
@@ -29,6 +31,11 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     if verdict.hint == 0:
         return replace(verdict, notes=notes)
     named = mistakes(truth, spelling.lines, judged.findings)
+    open_ones = open_equations(verdict.findings) if not named.told or named.left or not named.sure else []
+    unexplained = open_ones if not named.sure else [f for f in open_ones if any(f.line is x for x in named.left)]
+    findings, meant = as_combinations(truth, verdict.findings, unexplained or open_ones)
+    if meant:
+        return _with_combinations(truth, spelling, replace(verdict, findings=findings), meant, notes)
     if named.blamed is None and (part := divided_by_a_part(truth, verdict.findings)) is not None:
         found = [replace(f, differences=()) if f.status is Status.WRONG else f for f in verdict.findings]
         return replace(verdict, findings=tuple(found), mistakes=(part,), alternatives=(), notes=notes, sure=True)
@@ -43,3 +50,24 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     told = with_bodies(truth, findings, named.told)
     told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)
+
+
+def _with_combinations(
+    truth: Reference,
+    spelling: Spelling,
+    verdict: Verdict,
+    meant: Sequence[MeantCombination],
+    notes: tuple[Text, ...],
+) -> Verdict:
+    """The verdict with the terms of equations that are meant as sums of two, and the mistakes of the other lines."""
+    own = [x.finding for x in meant]
+    lines = [x for x in spelling.lines if not any(x is f.line for f in own)]
+    others = [f for f in verdict.findings if not any(f is x for x in own)]
+    wrong = any(f.status is Status.WRONG and not f.follows for f in others)
+    named = mistakes(truth, lines, others) if wrong else NamedMistakes()
+    told = with_bodies(truth, others, named.told)
+    first = min(f.line.number for f in own)
+    above = any(f.line.number < first for f in others if f.status is Status.WRONG and not f.follows)
+    terms = tuple(m for x in meant for m in x.mistakes)
+    listed = (*told, *terms) if above else (*terms, *told)
+    return replace(verdict, mistakes=listed, notes=notes, sure=named.sure)

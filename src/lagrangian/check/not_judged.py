@@ -121,7 +121,7 @@ class _Above:
 
     def is_formula(self, row: str) -> bool:
         """Whether a row has a formula of what moves, or says in words and a letter what a force is."""
-        tokens = set(_tokens(row))
+        tokens = set(tokens_of(row))
         if _FORMULA.search(row) is not None and tokens & self.moving:
             return True
         if any(self._is_product(m) for m in _PRODUCT.finditer(row)):
@@ -129,7 +129,7 @@ class _Above:
         said = _SAID.search(row)
         if said is None:
             return False
-        own = set(_tokens(said["value"]))
+        own = set(tokens_of(said["value"]))
         if not own:
             return _NUMBER.fullmatch(said["value"]) is not None and self.names_something(row[: said.start()])
         force = bool(own & (self.moving | self.inputs)) or _FORMULA.search(said["value"]) is not None
@@ -187,7 +187,7 @@ def _used(said: Sequence[AnswerLine], findings: Sequence[Finding]) -> set[str]:
     return used
 
 
-def _tokens(row: str) -> Iterator[str]:
+def tokens_of(row: str) -> Iterator[str]:
     """The keys of what may be names in a row, without dots."""
     for match in _TOKEN.finditer(row):
         whole = match["word"] or match[0]

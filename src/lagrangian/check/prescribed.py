@@ -27,6 +27,9 @@ LOST = ("lost", "lost_in_a_sum", "factor_missing")
 FUNCTIONS = "functions of time"
 """The name of a line that equates them."""
 WHY_TWICE = text("Differentiate the velocity term by term: by the product rule each factor that moves has its turn.")
+WHY_SPEED = text(
+    "Every coordinate that moves the point adds to its velocity, with its direction: what carries it counts."
+)
 WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
 
 
@@ -97,7 +100,8 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
         way = integrated(truth, said) if of_rate else said
         again = of_rate and z in placed and zero_everywhere(truth, sp.diff(placed[z], time) - said)
         table |= {} if way is None or (of_rate and z in placed) or zero_everywhere(truth, rest) else {z: way}
-        if again or _is_true(truth, rest):
+        turned = truth.expand(z).has(sp.Derivative) and zero_everywhere(truth, truth.expand(z + said))
+        if again or turned or _is_true(truth, rest):  # a speed may be counted in the other sense
             out.append(replace(line, kind="statement", expr=sp.S.Zero))
         else:
             out.append(replace(line, kind="identity", expr=rest, name=str(z.func) + of_rate * "'"))
@@ -135,8 +139,11 @@ def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr, bool] | 
     said = bounded.expand(of - expr / number)
     coordinates = [c.symbol for c in model.coordinates]
     others = [*(c.acceleration for c in model.coordinates), *(u.symbol for u in model.inputs), z]
-    if of is z:
-        moving = said.has(*coordinates) and not said.has(*(c.rate for c in model.coordinates))
+    rates = [c.rate for c in model.coordinates]
+    if of is z and truth.expand(z).has(*rates):
+        moving = said.has(*rates)
+    elif of is z:
+        moving = said.has(*coordinates) and not said.has(*rates)
     else:
         moving = said != 0 and bounded.expand(said - _of_rates(truth, said)) == 0
     known = said.free_symbols <= truth.names and not said.has(*others)
@@ -174,6 +181,18 @@ def _equates_functions(truth: Reference, line: AnsweredLine) -> bool:
     return known and not zero_everywhere(truth, line.expr)
 
 
+def _of_speed(truth: Reference, z: sp.Expr, right: sp.Expr, written: sp.Expr) -> Mistake:
+    """What is wrong in what an answer says of a speed that the system has a name for, in the sense in which it counts
+    it."""
+    away = [len(sp.Add.make_args(bounded.expand(written - sign * right))) for sign in (1, -1)]
+    counted = right if away[0] <= away[1] else -right
+    begins = () if counted is right else ("But for its sign, ",)
+    what = text(*begins, z, " is ", counted, ", not ", written, ".")
+    acts = any(e.ledger == "Ξ" and any(sp.sympify(u.expr).has(z) for u in e.uses()) for e in truth.model.elements)
+    brief = text(f"What {z.func} is, is not right.")
+    return Mistake("definition_wrong", what, WHY_SPEED, 6 if acts else 2, None, None, brief)
+
+
 def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     """What is wrong in a line on a prescribed motion; None for any other line."""
     if line.kind != "identity" or line.name is None:
@@ -196,6 +215,8 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
             return Mistake(
                 "prescribed_motion", what, WHY_TWICE, 5, None, None, text(f"The acceleration of {base} is not right.")
             )
+        if right.has(sp.Derivative) and not order:
+            return _of_speed(truth, symbols[0], right, written)
         own = not order or not any(x.has(sp.sin, sp.cos) for x in (right, written))  # −sin θ comes of the cosine
         if own and _is_negative(right) != _is_negative(written) and right + written != 0:  # a sense of its own
             what = text("But for its sign, ", rate, " is ", -right, ", not ", written, ".")

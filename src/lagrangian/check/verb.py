@@ -20,7 +20,9 @@ from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
+from lagrangian.check.explain.claims_checked import with_claims_checked
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
+from lagrangian.check.explain.deflections_written import with_written_deflections
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
@@ -28,6 +30,7 @@ from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.same_residuals import with_same_residuals
 from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.told_truly import told_truly
+from lagrangian.check.explain.uncovered import with_uncovered_terms
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.named_accelerations import with_accelerations
@@ -46,6 +49,7 @@ from lagrangian.check.readings_compared import (
     program_of,
     wrong_together,
 )
+from lagrangian.check.reasons_unread import without_unread_reasons
 from lagrangian.check.reference import truth_of
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
@@ -111,7 +115,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
         if given.notation == "text" and verdict.status is check.Status.WRONG and hint:
             verdict = with_parts_above(truth_of(derivation), written, verdict)
         above = unjudged_above(written, verdict, derivation.model, given)
-        verdict = replace(verdict, unjudged=above.lines, partly=above.partly)
+        verdict = without_unread_reasons(replace(verdict, unjudged=above.lines, partly=above.partly), written)
     return CheckedAnswer(**vars(verdict), model=derivation.model)
 
 
@@ -221,8 +225,14 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     verdict = with_other_components(
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
-    verdict = _apart(derivation, answer, fitting(told_truly(with_same_residuals(truth_of(derivation), verdict))))
+    told = _claims_checked(told_truly(with_same_residuals(truth_of(derivation), verdict)))
+    verdict = _apart(derivation, answer, fitting(told))
     return _told(verdict, answer, decides.notes)
+
+
+def _claims_checked(verdict: check.Verdict) -> check.Verdict:
+    """The verdict with mistakes that say no more than what is written."""
+    return with_uncovered_terms(with_claims_checked(with_written_deflections(verdict)))
 
 
 def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:

@@ -74,6 +74,7 @@ OTHER_SIDE = text("The generalized force is right: what is moved to the other si
 WHOLE_VELOCITY = text(
     "It feels the whole velocity of the point on which it acts, against what it rubs on: what carries the body counts."
 )
+OF_WHOLE_VELOCITY = text(f"A resistance feels {str(WHOLE_VELOCITY).removeprefix('It feels ')}")
 OF_BODIES = text("Every mass and every moment of inertia that moves counts: go through the sketch, body by body.")
 TERM_BY_TERM = text("Go through this equation once more, term by term.")
 _INERTIA = text(
@@ -142,7 +143,7 @@ def with_fitting_advice(truth: Reference, lines: Sequence[AnsweredLine], verdict
     that speak of energies which nobody wrote."""
     balances = without_lagrange(lines)
     right = {f.line.name for f in verdict.findings if f.line.kind == "Xi" and f.status.right}
-    dampers = [_as_of_damper(truth, m, right) for m in verdict.mistakes]
+    dampers = [_as_of_resistance(truth, _as_of_damper(truth, m, right)) for m in verdict.mistakes]
     told = tuple(replace(m, why=_fitting(truth, m, balances, right)) for m in dampers)
     others = [m for m in verdict.alternatives if not (balances and _is_of_lagrange(m))]
     return replace(verdict, mistakes=told, alternatives=tuple(others))
@@ -170,6 +171,26 @@ def _as_of_damper(truth: Reference, mistake: Mistake, right: Collection[str | No
     if not formulas[0].atoms(sp.Derivative) or not bounded.letters(formulas[0]) & own:
         return mistake
     return replace(mistake, step=6, why=AS_ABOVE if mistake.coordinate in right else OF_RESISTANCE)
+
+
+def _as_of_resistance(truth: Reference, mistake: Mistake) -> Mistake:
+    """A term with a rate and the constant of a resistance that is missing, as one of step 6: nothing is accelerated."""
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr) and not x.is_number]
+    missing = any(x in mistake.name for x in MISSING) and str(mistake.why) in GENERAL
+    if mistake.step != 5 or not formulas or not missing or mistake.coordinate is None:
+        return mistake
+    rates = formulas[0].atoms(sp.Derivative)
+    if not rates or any(d.derivative_count > 1 for d in rates):
+        return mistake
+    s = ingredients_of(truth.derivation)
+    shares = [x for e in s.resisting for x in s.shares(e).values()]
+    own = set[sp.Basic]().union(*map(bounded.letters, shares)) - bounded.letters(truth.T) - bounded.letters(truth.V)
+    held = {x for x in bounded.letters(formulas[0]) & own if isinstance(x, sp.Symbol)}
+    if not held:
+        return mistake
+    i = next(k for k, c in enumerate(truth.model.coordinates) if c.name == mistake.coordinate)
+    several = sum(t.has(*held) for t in sp.Add.make_args(bounded.expand(truth.Xi[i]))) > 1
+    return replace(mistake, step=6, why=OF_WHOLE_VELOCITY if several else OF_RESISTANCE)
 
 
 def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collection[str | None]) -> Text:

@@ -161,7 +161,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     values = CompiledExpressions([expr, *own, *(t * f for t, f in powers)]).at(truth.states)
     if not np.isfinite(values).all():
         return None
-    outside = _outside(truth, values)
+    outside = outside_rows(truth, values)
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
     found = in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
@@ -172,7 +172,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     if not found:
         right = _right_terms(truth)
         values = CompiledExpressions(right).at(truth.states) if right else np.empty((0, truth.states.size))
-        lacking = _lacking(right, wrong, _outside(truth, values)) if right else None
+        lacking = _lacking(right, wrong, outside_rows(truth, values)) if right else None
         return lacking or _group_in_factor(truth, expr, wrong)
     return None if len(found) > 1 and found[0][0] == found[1][0] else found[0][1]
 
@@ -183,7 +183,7 @@ def _group_in_factor(truth: Reference, expr: sp.Expr, wrong: Array) -> WrongTerm
     listed = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]
     if not 4 < len(listed) <= MOST_IN_GROUP or not truth.derivation.multipliers:
         return None
-    outside = _outside(truth, CompiledExpressions(listed).at(truth.states))
+    outside = outside_rows(truth, CompiledExpressions(listed).at(truth.states))
     for count in (2, 3):
         groups = {
             cast("sp.Expr", sp.Add(*(listed[k] for k in chosen))): outside[list(chosen)].sum(axis=0)
@@ -315,7 +315,7 @@ def own_terms_of(expr: sp.Expr) -> list[sp.Expr]:
     return [t for whole, t in found.items() if whole != 0]
 
 
-def _outside(truth: Reference, values: Array) -> Array:
+def outside_rows(truth: Reference, values: Array) -> Array:
     """What of values (k, S) lies outside the right rows, at every place; (k, places, motions)."""
     places = SETS * PLACES
     shaped = values.reshape(len(values), places, -1)

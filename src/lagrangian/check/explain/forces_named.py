@@ -13,27 +13,34 @@ from lagrangian.page.formula import Left, Name, Verbatim, text
 _NAMED = re.compile(r"[^\W\d_]_?[^\W\d_]\w{0,10}")
 """A name with letters behind its own: no number says of which coordinate it is."""
 
+_WORK = re.compile(r"(?:[δd∂]|delta)_?W")
+"""A virtual work: it has forces on all coordinates."""
+
 
 def with_forces_named(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict, with every Ξ of which mistakes speak called as the answer calls it."""
     own = {x.name: x.text.partition("=")[0].strip() for x in lines if x.kind == "Xi" and x.name is not None}
-    called = {
-        str(k): Verbatim(own[c.name])
-        for k, c in enumerate(truth.model.coordinates, 1)
-        if _NAMED.fullmatch(own.get(c.name, ""))
-    }
+    called: dict[str, tuple[str | Verbatim | Left, ...]] = {}
+    for k, c in enumerate(truth.model.coordinates, 1):
+        name = own.get(c.name, "")
+        if _WORK.match(name):
+            called[str(k)] = ("the Ξ of ", c.symbol)
+        elif _NAMED.fullmatch(name):
+            called[str(k)] = (Verbatim(name),)
     if not called:
         return verdict
     told, others = (tuple(_said(m, called) for m in x) for x in (verdict.mistakes, verdict.alternatives))
     return replace(verdict, mistakes=told, alternatives=others)
 
 
-def _said(mistake: Mistake, called: Mapping[str, Verbatim]) -> Mistake:
+def _said(mistake: Mistake, called: Mapping[str, Sequence[str | Verbatim | Left]]) -> Mistake:
     """A mistake with these names."""
-    return replace(mistake, what=text(*(_name(x, called) for x in mistake.what.parts)))
+    return replace(mistake, what=text(*(x for part in mistake.what.parts for x in _name(part, called))))
 
 
-def _name(part: str | Verbatim | Left, called: Mapping[str, Verbatim]) -> str | Verbatim | Left:
+def _name(
+    part: str | Verbatim | Left, called: Mapping[str, Sequence[str | Verbatim | Left]]
+) -> Sequence[str | Verbatim | Left]:
     """A part of a sentence, or the name for it."""
     is_force = isinstance(part, Name) and part.base == "Xi" and part.dots == 0
-    return called.get(part.index, part) if is_force and isinstance(part, Name) else part
+    return called.get(part.index, (part,)) if is_force and isinstance(part, Name) else (part,)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import cast
 
 import numpy as np
@@ -23,11 +23,14 @@ def value_of(q: Sayable, said: sp.Expr, written: sp.Expr, sign: int) -> sp.Expr 
 
 def senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
     """What is written, and the sense in which it is counted; the sense that leaves fewer motions different first."""
-    if q.kind == "speed":
-        yield said**2, 1
-        yield said, 1
-        return
     s = quantities_of(truth).of
+    if q.kind == "speed":
+        degree = _degree(said, s.v)
+        if degree != 2:
+            yield said**2, 1
+        if degree != 1:
+            yield said, 1
+        return
     said = s.rate(said) if q.kind == "rate" and not said.has(*s.v) else said
     if q.kind not in SIGNED:
         yield said, 1
@@ -36,6 +39,12 @@ def senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Exp
     first = outwards if q.kind == "apart" else turned_to(truth, q.right, said) if q.axis is None else 1
     yield said, first
     yield said, -first
+
+
+def _degree(said: sp.Expr, rates: Sequence[sp.Expr]) -> int | None:
+    """Whether the rates multiply what is said once, as a speed, or twice, as its square; None for neither."""
+    doubled = cast("sp.Expr", said.xreplace({v: 2 * v for v in rates}))
+    return next((n for n in (1, 2) if bounded.expand(doubled - 2**n * said) == 0), None)
 
 
 def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:

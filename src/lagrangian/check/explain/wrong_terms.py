@@ -26,6 +26,7 @@ from lagrangian.check.explain.determinant_said import with_determinant
 from lagrangian.check.explain.one_term_beside import with_one_term_beside
 from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
+from lagrangian.check.explain.summands_wrong import with_wrong_summands
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.written_pieces import WrittenPieces
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
@@ -78,7 +79,7 @@ def _with_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdic
             return _with_term_of_denominator(truth, lines, verdict, combined)
         found = _with_denominators(truth, lines, with_terms_alone(combined), combined)
         return found if found.mistakes else verdict
-    combined = with_combined_rows(truth, lines, balanced)
+    combined = with_wrong_summands(truth, lines, with_combined_rows(truth, lines, balanced))
     told = with_terms_alone(_with_term_of_one_line(truth, combined))
     told = told if balanced.mistakes else _with_denominators(truth, lines, told, combined)
     return with_sum_not_squared(truth, told)

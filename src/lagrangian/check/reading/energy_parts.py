@@ -55,7 +55,8 @@ _MEANT = re.compile(r",[ \t]++(?:(?:with|where|mit|wobei)[ \t]++)?(?=[^\W\d]\w{0
 """What a letter in an energy means, behind it: 1/2 I φ'^2, I = J + m l^2."""
 _ARROW = re.compile(r"(?:-+>|=+>|→|⇒|⟶)[ \t]*+")
 _REMARK = re.compile(r"[ \t]{2}[(;,#]")
-_RATE = re.compile(r"['’′˙\u0307]|\\dot(?![A-Za-z])|(?<=[^\W\d])d(?:ot)?\d?(?:²|\^|\*\*)")
+_REASON = re.compile(r"[ \t]+(?:because|since|as|weil|da)[ \t]")
+_RATE = re.compile(r"['’′˙\u0307]|\\dot(?![A-Za-z])|_dot\b|(?<=[^\W\d])d(?:ot)?\d?(?:²|\^|\*\*)")
 _TWICE = re.compile(r"['’′]{2}|[\u0308″¨]|\\ddot|ddot|dd\b")
 _UMLAUT = re.compile("(?<=[A-Za-z])[äëïöü]|[ÄÖÜäëïöü](?=[A-Za-zß])")
 _SQUARE = re.compile(r"²|\^\s?\{?2|\*\*\s?2")
@@ -166,8 +167,11 @@ class _Parts:
         """Where a value begins behind its label, and its name."""
         row = self._row(text)
         kind = None if row is None else self._kind(row.label, text[row.start : row.end], ":" in text[: row.start])
-        if row is not None and kind is not None and self._is_energy(kind, text[row.start : row.end]):
+        sides = [] if row is None else text[row.start : row.end].split("=")
+        whole = len(sides) == 1 or (self.kind is not None and kind == self.kind)
+        if row is not None and kind is not None and whole and all(self._is_energy(kind, x.strip()) for x in sides):
             return row.start, self._name(kind, row.label)
+        row = row if len(sides) == 1 else None
         if "=" not in text and not _is_dotted_twice(text):
             self.kind = _heading(text)
         elif row is None:
@@ -182,10 +186,10 @@ class _Parts:
         start, end = label.end(), len(text.rstrip(" \t.;,"))
         for arrow in _ARROW.finditer(text, start):
             start = arrow.end()
-        for form in (_REMARK, _MEANT):
+        for form in (_REMARK, _REASON, _MEANT):
             if (remark := form.search(text, start, end)) is not None:
                 end = remark.start()
-        return None if "=" in text[start:end] else _Row(label["label"], start, end)
+        return _Row(label["label"], start, end)
 
     def _kind(self, label: str, value: str, marked: bool) -> str | None:
         """Which energy a label or the heading above it says; without both, a mass and squares of rates show T."""

@@ -1,9 +1,12 @@
 """Right-hand sides that stand apart, below the left-hand sides, behind the same coordinates: steps 5 and 6.
 
-x: m x'' + k x          x: m x'' + k x
-y: m y''                y: m y''
-x: F - b x'             Xi_x = F - b x'
-y: 0                    Xi_y = 0
+x: m x'' + k x          x: m x'' + k x          Generalized forces      Generalized forces
+y: m y''                y: m y''                  x: F - b x'             Q_x = F - b x'
+x: F - b x'             Ξ_x = F - b x'            y: 0                    Q_y = 0
+y: 0                    Ξ_y = 0
+
+The number of a step may stand in front of the first row, Step 6  x: F, and a sentence may say that the sides are equal,
+The equations are Step 5 = Step 6.
 
 A bare Q in such a row is that of its coordinate:   y: dV/dy = k y, Q = F
 """
@@ -12,6 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
@@ -19,9 +23,24 @@ from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.read.letters import undotted
 
 _NAME = r"[^\W\d](?:\w|[\u0307\u0308]){0,24}+"
+_STEP = r"(?:steps?|parts?|lines?|schritt|teil|zeile)"
 _LABELLED = re.compile(
-    rf"^[ \t]*+(?:[-*•][ \t]++)?(?P<label>(?P<name>{_NAME})[ \t]*+:)(?P<value>[ \t]++[^=:;\n]{{1,400}}+)$", re.MULTILINE
+    rf"^[ \t]*+(?:[-*•][ \t]++)?(?P<label>(?:(?:{_STEP}[ \t]?\d{{1,2}}[.:)]?|\d{{1,2}}[.)])[ \t]++)?+(?P<name>{_NAME})"
+    r"[ \t]*+:)(?P<value>[ \t]++[^=:;\n]{1,400}+)$",
+    re.MULTILINE | re.IGNORECASE,
 )
+_HEADING = re.compile(
+    r"^[^=:\n]{0,30}?\b(?:generali[sz]ed[ ]forces?|(?:verallgemeinerten?|generalisierten?)[ ]Kräfte?n?)\b"
+    r"[^=:\n]{0,30}:?[ \t]*$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A line above generalized forces."""
+_SIDES_EQUAL = re.compile(
+    rf"^[^=\n]{{0,60}}?(?<!\w){_STEP}[ \t]?\(?\d{{1,2}}\)?[ \t]*+(?:=|equals?|is[ ]equal[ ]to|ist[ ]gleich)[ \t]*+"
+    rf"{_STEP}[ \t]?\(?\d{{1,2}}\)?[^=+*/^\n]{{0,40}}$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A sentence that sets the rows of two steps equal."""
 _TWICE = re.compile(r"['’′]{2}|″|[\u0308ẍÿẅ¨]|ddot|dd\b")
 _WORD = re.compile(_NAME)
 _OF_ROW = re.compile(rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+:[^\n]{{0,400}}?(?<![\w∂/])(?P<force>Q)[ \t]*+=", re.MULTILINE)
@@ -43,17 +62,32 @@ def with_labelled_forces(
 
     written = written if known("Q") else _with_forces_of_rows(written, coordinates)
     left, right = list[str](), list[re.Match[str]]()
+    headed = _HEADING.search(written.text) is not None
     for match in _LABELLED.finditer(written.text):
         if len(meant := coordinates(match["name"])) != 1:
             continue
         if _TWICE.search(match["value"]):
             left.append(meant[0])
-        elif left and all(map(is_read, _WORD.findall(match["value"]))):
+        elif (left or headed) and all(map(is_read, _WORD.findall(match["value"]))):
             right.append(match)
     named = [coordinates(match["name"])[0] for match in right]
-    if not len(left) == len(named) == len(set(left)) == len(set(named)) == count:
+    if len(named) != count or len(set(named)) != count:
         return written
-    return written.edited([(*m.span("label"), f"Xi_{name} = ") for m, name in zip(right, named, strict=True)])
+    apart = len(left) == len(set(left)) == count
+    if not apart and (known("Q") or not _is_headed(written.text, right)):
+        return written
+    letter = "Ξ" if apart else "Q"  # what a heading calls so may be all forces, with those of V
+    edits = [(*m.span("label"), f"{letter}_{name} = ") for m, name in zip(right, named, strict=True)]
+    said = _SIDES_EQUAL.search(written.text, right[-1].end()) if apart else None
+    return written.edited(edits if said is None else [*edits, (*said.span(), "")])
+
+
+def _is_headed(text: str, rows: Sequence[re.Match[str]]) -> bool:
+    """Whether rows follow each other, right below a heading that calls them generalized forces."""
+    begin = text[: rows[0].start()].rstrip()
+    heading = _HEADING.match(begin, begin.rfind("\n") + 1)
+    between = (text[a.end() : b.start()] for a, b in pairwise(rows))
+    return heading is not None and not any(x.strip() for x in between)
 
 
 def _with_forces_of_rows(written: TracedText, coordinates: Callable[[str], Sequence[str]]) -> TracedText:

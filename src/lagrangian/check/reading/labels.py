@@ -29,8 +29,8 @@ _NEXT = r"(?=\s+(?:=+>|[^\s*/^=+]))"
 _SPOKEN = re.compile(rf"\s*(?P<words>(?:[^\W\d_]{{2,12}}\.?\s+){{1,2}}){_SHORT}\s?\)[.:]?{_NEXT}")
 """A word or two before a letter with a bracket that nothing opens: ad a), zu 1)."""
 _CALLED = re.compile(
-    r"\s*(?:ad|zu|to|re|for|für|from|aus|in|teil|part|punkt|point|question|frage|task|aufgabe|item|nr|no)\.?\s*+"
-    rf"[(\[]?\s*+{_SHORT}\s*+(?:[)\]][.:]?|[.:]){_NEXT}",
+    r"\s*(?:ad|zu|to|re|for|für|from|aus|in|teil|part|punkt|point|question|frage|task|aufgabe|item|nr|no|exercise|problem"
+    rf"|übung)\.?\s*+(?:\d{{1,2}}[.,]?[ \t]++(?=[a-h][ \t]?\)))?+[(\[]?\s*+{_SHORT}\s*+(?:[)\]][.:]?|[.:]){_NEXT}",
     re.IGNORECASE,
 )
 _STEP_NUMBER = re.compile(

@@ -94,9 +94,8 @@ class Lines:
         self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
-        complete = self._complete()
+        complete, aside, results = self._complete(), list[ParseError](), list(self.results)
         found = [*errors, *([] if complete else self.remarks)]
-        aside, results = list[ParseError](), list(self.results)
         for i in range(len(statements)):
             try:
                 self._line(i)

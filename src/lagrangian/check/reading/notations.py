@@ -64,6 +64,7 @@ from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
+from lagrangian.check.reading.said.spelled_apart import with_letters_apart
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -154,6 +155,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
     own = {key(name) for name in lines.model.symbols}
+    if not LATEX.search(prompted.text):
+        prompted = with_letters_apart(
+            prompted, lambda name: key(name) in moving, lines.model.symbols.__contains__, taken, names.notes
+        )
     zero = residuals(with_declared(prompted, lambda name: key(name) in own), taken, names.changes)
     names.residuals = zero.names
     code = without_code(with_templates_applied(zero.written), taken, commands.append, session=is_session(text))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import NO_D, Ingredients, Variant
-from lagrangian.check.explain.misconceptions.ends import both_ends
+from lagrangian.check.explain.misconceptions.ends import both_ends, is_outer
 from lagrangian.page.formula import text
 
 STEP = 6
@@ -26,7 +26,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             changed = {i: x for i, x in change.items() if x != 0}
             everywhere = len(shares) == 1 and len(changed) == s.n - 1 and {*changed.values()} == {*shares.values()}
             yield Variant(what=what, Xi=changed, element=element, stated=NO_D, doubt=int(everywhere))
-        for i, x in shares.items():
+        for i, x in shares.items() if not is_outer(s, element) else ():
             if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):
                 what = text(f"The reaction of {element.title} is missing in the equation of ", s.q[i], ".")
                 yield Variant(what=what, Xi={i: -x}, element=element, coordinate=i)

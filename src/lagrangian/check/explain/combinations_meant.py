@@ -1,0 +1,130 @@
+"""A wrong equation that is meant as the sum or the difference of two right ones, compared with that and not with one.
+
+(J + M R²) ψ̈ + … = τ − u + b β̇      the equation of ψ less that of β: −u is no mistake in it, nor are terms of β missing
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.difference import differences, likeness, voted
+from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
+from lagrangian.check.reference import Reference, terms
+from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference
+from lagrangian.page.formula import text
+from lagrangian.records import dataclass
+
+FEWEST = 3
+"""The fewest terms in which a line differs from a single right equation that may be meant as another."""
+MOST_COORDINATES = 4
+"""With more coordinates there are too many sums of two equations."""
+MOST_TERMS = 120
+"""The most terms of a right equation that is added to another one."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeantCombination:
+    """A finding that is compared with ``i`` ± ``j``, the places of two right equations."""
+
+    finding: Finding
+    i: int
+    j: int
+    sign: int
+
+    @property
+    def mistakes(self) -> tuple[Mistake, ...]:
+        """The terms that differ, as mistakes."""
+        return tuple(term_mistake(self.finding, d) for d in self.finding.differences)
+
+
+def meant_combinations(
+    truth: Reference, findings: Sequence[Finding], left: Sequence[int]
+) -> dict[int, MeantCombination]:
+    """The wrong equations that differ in one or two terms from a sum or a difference of two right ones, and in more
+    than twice as many from any of these, by the places of their findings.
+
+    ``left`` are the places of those that no mistake explains. Another line must be the equation of one of the two.
+    """
+    if truth.derivation.multipliers or not 1 < truth.n <= MOST_COORDINATES:
+        return {}
+    names = [c.name for c in truth.model.coordinates]
+    found: dict[int, MeantCombination] = {}
+    for k in left:
+        f = findings[k]
+        if len(f.differences) < FEWEST or terms(f.line.expr) > MOST_TERMS:
+            continue
+        beside = {x.coordinate for m, x in enumerate(findings) if x.line.kind == "equation" and m != k}
+        tried = [
+            (meant, i, j, sign)
+            for i, j, sign in _pairs(truth.n)
+            if {names[i], names[j]} & beside and (meant := _compared(truth, f, i, j, sign))
+        ]
+        best = min(tried, key=lambda x: len(x[0]), default=None)
+        if best is None or len(best[0]) > MOST_TOLD or 2 * len(best[0]) >= len(f.differences):
+            continue
+        meant, i, j, sign = best
+        q = truth.derivation.coordinates
+        note = text("as the equation of ", q[i], " and that of " if sign > 0 else " less that of ", q[j])
+        told = replace(f, differences=meant, coordinate=None, note=note, elements=())
+        found[k] = MeantCombination(told, i, j, sign)
+    return found
+
+
+def _pairs(n: int) -> Iterator[tuple[int, int, int]]:
+    """Two places and a sign: every sum, and every difference."""
+    for i in range(n):
+        for j in range(i + 1, n):
+            yield i, j, -1
+            yield i, j, 1
+
+
+def _compared(truth: Reference, finding: Finding, i: int, j: int, sign: int) -> tuple[TermDifference, ...]:
+    """The terms in which a line differs from two right equations together; none where it cannot be compared."""
+    if max(terms(truth.rows[i]), terms(truth.rows[j])) > MOST_TERMS:
+        return ()
+    expr = finding.line.expr
+    both: sp.Expr = truth.rows[i] + sign * truth.rows[j]
+    mine, right = truth.form(expr), truth.form(both)
+    if mine is None or right is None:
+        return ()
+    (like,) = likeness(mine, [right])
+    like = voted(truth, expr, right, like)
+    if like.factor not in (1, -1):
+        return ()
+    found, others = (differences(truth, mine, right, like.factor, x, expr) for x in (i, j))
+    origins = [tuple(dict.fromkeys((*a.origins, *b.origins))) for a, b in zip(found, others, strict=False)]
+    told = tuple(replace(d, coordinate=None, origins=o) for d, o in zip(found, origins, strict=False))
+    return _as_one(expr, told)
+
+
+def _as_one(expr: sp.Expr, told: tuple[TermDifference, ...]) -> tuple[TermDifference, ...]:
+    """Two terms that are missing as one that is not what it should be, if they make a product of it: β̇² sin β should
+    be (ψ̇ + β̇)² sin β."""
+    if len(told) != MOST_TOLD or any(d.kind != "missing" for d in told):
+        return told
+    lacking: sp.Expr = told[0].term + told[1].term
+    own = (t for t in sp.Add.make_args(bounded.expand(expr)) if bounded.letters(t) <= bounded.letters(lacking))
+    for t in own:
+        whole = bounded.factored(bounded.expand(t + lacking))
+        if isinstance(whole, sp.Mul) and not any(x.is_Add for x in whole.args) and t.has(sp.Derivative):
+            origins = tuple(dict.fromkeys((*told[0].origins, *told[1].origins)))
+            return (replace(told[0], kind="coefficient", term=whole, written=t, origins=origins),)
+    return told
+
+
+def as_combinations(
+    truth: Reference, findings: Sequence[Finding], left: Sequence[Finding]
+) -> tuple[tuple[Finding, ...], list[MeantCombination]]:
+    """The findings, with those ``left`` open that are meant so in place of them."""
+    places = [k for k, f in enumerate(findings) if any(f is x for x in left)]
+    found = meant_combinations(truth, findings, places)
+    return tuple(found[k].finding if k in found else f for k, f in enumerate(findings)), list(found.values())
+
+
+def open_equations(findings: Sequence[Finding]) -> list[Finding]:
+    """The wrong equations that follow from no other line."""
+    return [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation" and not f.follows]
