@@ -311,9 +311,8 @@ class Subjects:
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
     def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr | None, sp.Expr, str | None] | None:
-        """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
-        one of its ``sides``, trees and values, perhaps with a minus, or of ℒ where the system defines an L: as a line
-        less its place."""
+        """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of its own energies, alone on one of its
+        ``sides``, perhaps with a minus, or of ℒ where the system defines an L: as a line less its place."""
         lengths = [d.symbol for d in self.model.definitions if d.name == "L"]
         if sides[0][1] in lengths and has_squares(sides[1][1]):
             self.names.stated["L"] = sides[1][1]
