@@ -187,9 +187,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
-        said = with_named_formulas(said, taken)
-        said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
-        said = with_derivatives_in_latex(with_open_text(without_sets(said.sub(_ROW_OF, lambda _: ""))))
+        said = _in_latex(with_named_formulas(said, taken))
     else:
         beside = with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
         starred = with_starred_names(with_derivatives(beside), names.known)
@@ -200,6 +198,12 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _in_latex(said: TracedText) -> TracedText:
+    """An answer in LaTeX with degrees as parts of π, and without sets and numbers of rows."""
+    degrees = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
+    return with_derivatives_in_latex(with_open_text(without_sets(degrees.sub(_ROW_OF, lambda _: ""))))
 
 
 def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
