@@ -85,3 +85,32 @@ def test_a_term_is_told_with_its_whole_angle(sign: str, function: str) -> None:
     verdict = system(WINCH).check(f"{row} = -c theta' {sign} Q (b/r) {function}(pi/4 + theta/2)")
     shown = [d for f in verdict.findings for d in f.differences]
     assert len(shown) == 1 and not shown[0].written.is_Add and "sqrt" not in str(shown[0]), shown
+
+
+TENSION = """gamma = pi/4 + theta/2
+J theta'' = -c theta' - Z b cos(gamma)
+Z = (Jd s''/r {} Q)/r
+"""
+
+
+def test_a_wrong_force_is_told_at_its_line_beside_another_name() -> None:
+    """The balance of the flap has no Q: it is wrong in what the tension is, whatever its angle is called."""
+    assert system(WINCH).check(TENSION.format("+")).right
+    verdict = system(WINCH).check(TENSION.format("-"))
+    assert wrong_lines(verdict) == [3], str(verdict)
+
+
+DRUM_TOO = """gamma = pi/4 + theta/2
+J theta'' = -c theta' - Z b cos(gamma)
+Drum: r phi' = s'
+Jd phi'' = Z r {other} Q
+  -> Z = (Jd s''/r {sign} Q)/r
+(J + Jd (b/r)^2 cos(gamma)^2) theta'' - 1/4 Jd (b/r)^2 sin(2 gamma) theta'^2 = -c theta' {other} Q (b/r) cos(gamma)
+"""
+
+
+def test_a_wrong_force_that_was_solved_is_told_at_its_line() -> None:
+    assert system(WINCH).check(DRUM_TOO.format(sign="+", other="-")).right
+    verdict = system(WINCH).check(DRUM_TOO.format(sign="-", other="+"))
+    assert wrong_lines(verdict)[0] in (4, 5), str(verdict)
+    assert not any(f.line.number == 2 and not f.follows and not f.status.right for f in verdict.findings), str(verdict)

@@ -58,6 +58,8 @@ class PartOfValue:
 def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: Sequence[AnsweredLine]) -> Verdict:
     """The verdict, with the wrong terms of equations at the values in which they were made; ``lines`` are those of the
     answer that was read with marks."""
+    told, names = verdict, own_names(truth, lines, [f.line for f in verdict.findings if f.status is Status.WRONG])
+    verdict = replace(verdict, findings=tuple(_written_out(f, names) for f in verdict.findings))
     rows = [replace(x, expr=truth.expand(x.expr)) for x in lines if x.kind == "equation"]
     equations = [f for f in verdict.findings if f.line.kind == "equation"]
     marked = {id(f): _with_marks(truth, marks, f.line, rows) for f in equations}
@@ -82,13 +84,24 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
     found = [x for x in found if _fits(x, found, uses) and (x.of.line not in said or _is_entry(x, uses))]
     if not found:
-        return verdict
+        return told
     lines_made = {x.of.line for x in found} & said  # m g l sin θ is right for a force, and not for this entry
     kept = (f for f in verdict.findings if f.line.kind != "definition" or f.line.number not in lines_made)
     verdict = replace(verdict, findings=tuple(kept))
-    names = own_names(truth, lines, [x.finding.line for x in found])
-    found = [replace(x, own=_named(x.own, names)) for x in found]
-    return with_made(truth, verdict, found, differing)
+    own = own_names(truth, lines, [x.finding.line for x in found])
+    found = [replace(x, own=_named(x.own, own)) for x in found]
+    made = with_made(truth, verdict, found, differing)
+    named = (replace(f, differences=tuple(_named(d, names) for d in f.differences)) for f in made.findings)
+    return replace(made, findings=tuple(named))
+
+
+def _written_out(finding: Finding, names: Sequence[OwnName]) -> Finding:
+    """A finding with terms in the letters of the system, as those are that a line is made of."""
+    table: dict[Any, Any] = {x.symbol: x.value for x in names if not x.given}
+    if not table or not any(d.term.has(*table) or d.written.has(*table) for d in finding.differences):
+        return finding
+    plain = (replace(d, term=d.term.xreplace(table), written=d.written.xreplace(table)) for d in finding.differences)
+    return replace(finding, differences=tuple(plain))
 
 
 def _named(d: TermDifference, names: Sequence[OwnName]) -> TermDifference:
