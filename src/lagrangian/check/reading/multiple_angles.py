@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import sympy as sp
+from lark import Token, Tree
 
 from lagrangian import bounded
 from lagrangian.check.reading.names import Names
-from lagrangian.check.reading.nodes import Node, only_name
+from lagrangian.check.reading.nodes import Node, names_in, only_name
 from lagrangian.model import Model
 
 MOST_POINTS = 200
@@ -17,21 +18,35 @@ MOST_POINTS = 200
 
 
 def is_multiple(first: Node, second: Node, names: Names) -> bool:
-    """Whether two factors behind a sine or cosine are an angle of the system: a constant that is none by itself, and
-    the coordinate that it multiplies."""
-    pair = [only_name(x) for x in (first, second)]
-    meant = [names.scope.meanings(x[0]) for x in pair if x is not None and x[1] == 0]
-    if len(meant) < 2 or any(len(found) != 1 or dots for found, dots in meant):
+    """Whether two factors behind a sine or cosine are an angle of the system: a constant that is none by itself, or a
+    name or a sum in brackets of such constants, and a coordinate that is multiplied so in the system."""
+    multiples = _multiples(names.model)
+    of = only_name(second)
+    coordinate = _meaning(of[0], names) if multiples and of is not None and of[1] == 0 else None
+    if coordinate is None or coordinate not in {x for _, x in multiples}:
         return False
-    constant, coordinate = (names.scope[found[0]] for found, _ in meant)
-    return (constant, coordinate) in _multiples(names.model)
+    alone = only_name(first)
+    if alone is not None:
+        constant = _meaning(alone[0], names)
+        return alone[1] == 0 and (constant is None or (constant, coordinate) in multiples)
+    inside = [] if not isinstance(first, Tree) or first.data == "call" else list(names_in(first))
+    found = [_meaning(x, names) for x, changing in inside if not changing]
+    return bool(found) and len(found) == len(inside) and all(x is None or (x, coordinate) in multiples for x in found)
+
+
+def _meaning(written: Token, names: Names) -> sp.Basic | None:
+    """What a name is in the system; None for one that it does not have, a letter that names it twice for itself."""
+    found, dots = names.scope.meanings(written)
+    if len(found) != 1:
+        return None if not found else sp.Symbol(str(written))
+    return names.scope[found[0]] if not dots else sp.Symbol(str(written))
 
 
 def _multiples(model: Model) -> frozenset[tuple[sp.Basic, sp.Basic]]:
     """The constants and the coordinates that they multiply in the angles of a system."""
 
     def made() -> frozenset[tuple[sp.Basic, sp.Basic]]:
-        constants = {p.symbol for p in model.parameters}
+        constants = {p.symbol for p in model.parameters} | {d.symbol for d in model.definitions if not d.moving}
         coordinates = {c.symbol for c in model.coordinates}
         terms = [x for angle in _angles(model) for x in sp.Add.make_args(bounded.expand(angle))]
         alone = {x for term in terms if not term.has(*coordinates) for x in term.free_symbols}

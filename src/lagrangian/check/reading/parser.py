@@ -11,7 +11,7 @@ from copy import deepcopy
 
 from lark import Tree
 
-from lagrangian.check.reading.nodes import MAX_DEPTH, Node, leaf, node
+from lagrangian.check.reading.nodes import MAX_DEPTH, Node, leaf, node, start_of
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.records import dataclass
@@ -105,6 +105,11 @@ class Parser(ABC):
         self.i, self.tokens = at, tokens
         del self.opened[depth:]
         return []
+
+    def with_multiple(self, argument: Tree, joins: Callable[[Node, Node], bool]) -> Tree:
+        """An argument in brackets with the factor behind it, cos(n + 1)φ, if it ``joins`` it."""
+        more = self.multiplied(argument, joins)
+        return node("product", start_of(argument), argument, *more) if more else argument
 
     def unclosed(self) -> ParseError | None:
         """Return the error for a bracket that is still open at the end of a side."""

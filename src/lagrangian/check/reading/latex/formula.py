@@ -310,7 +310,7 @@ class LatexParser(LatexFractions):
             self.opened.pop()
             return found
         if self.next.kind in ("(", "[", "{"):
-            return [self._closed(CLOSING[self.next.kind])]
+            return [self.with_multiple(self._closed(CLOSING[self.next.kind]), partial(is_multiple, names=self.names))]
         if self.next.kind == "minus":
             raise self.source.error(
                 f"the argument of {token.text} begins with a sign", self.next.start, fix=f"write \\{token.text}(-x)"

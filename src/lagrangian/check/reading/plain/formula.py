@@ -288,6 +288,8 @@ class PlainParser(PlainCalls):
         exponent = self._exponent(token, raised) if raised is not None else None
         if self.next.kind in ("(", "["):
             arguments = self._arguments()
+            if len(arguments) == 1:
+                arguments = [self.with_multiple(arguments[0], partial(is_multiple, names=self.words.names))]
         elif self.next.kind == "minus" or self.next.kind not in _BEGINS - {"("}:
             raise self.stopped(False) if raised is not None else self._without_argument(token)
         else:
