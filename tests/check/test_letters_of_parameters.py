@@ -110,3 +110,10 @@ def test_an_angular_momentum_with_squares_of_lengths_is_no_lagrangian() -> None:
     assert derivation.check(momentum + row).right
     assert not derivation.check(momentum.replace("m R^2", "m R^2/2") + row).right
     assert not derivation.check("L = J phi'^2/2 + m R^2 phi'^2\n" + row).right
+
+
+def test_a_label_adds_bodies_by_their_letters() -> None:
+    written = equations("cos phi", "sin phi", "c").split("\n")
+    labelled = f"cart + B:   {written[0]}\nrod and B:  {written[1]}"
+    assert cart().check(labelled).right
+    assert not cart().check(labelled.replace("= 0", "= m g l")).right

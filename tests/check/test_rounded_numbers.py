@@ -141,3 +141,12 @@ def test_roots_and_sines_of_whole_numbers_have_fifty_digits() -> None:
     for expr, found in zip(exprs, CompiledExpressions(exprs).exactly(states, 0), strict=True):
         with mpmath.workdps(50):
             assert abs(found - mpmath.mpf(str(sp.N(expr, 60)))) < mpmath.mpf(10) ** -45
+
+
+def test_a_calculation_with_numbers_is_no_equation_of_motion() -> None:
+    said = "mass of the crate: 25/3 + 140*0.95 = {}\n"
+    rows = "25*x'' + 50000*(x - y) + 50.9903 = F\n140*y'' - 50000*(x - y) + 285.5459 = 0"
+    derivation = slope()
+    assert derivation.check(rows).right
+    assert derivation.check(said.format("141.3333") + rows).right
+    assert not derivation.check(said.format("151.3333") + rows).right

@@ -106,7 +106,11 @@ def is_rounded(number: sp.Expr, value: float) -> bool:
 
 
 def is_true_number(line: AnsweredLine) -> bool:
-    """Whether a line only says the value of a number, rounded: sin 20° = 0.3420. It is no equation of motion."""
+    """Whether a line only says the value of a number, rounded: sin 20° = 0.3420, (0.4/3 + 0.3)*0.01 = 0.004333. It is
+    no equation of motion."""
+    if line.kind == "equation" and line.sides is not None and all(x.is_Rational for x in line.sides):
+        value, number = line.sides
+        return number != 0 and (value == number or _is_rounded_from(number, value))
     if line.kind != "equation" or not line.expr.is_Add or not line.expr.is_number:
         return False
     number, rest = line.expr.as_coeff_Add()

@@ -315,7 +315,10 @@ def _told(said: str, words: Words, *, sure: bool) -> bool:
     spoken = [
         len(x.rstrip("0123456789")) > 2 and not words.readable(x) and (sure or not words.is_product(x)) for x in listed
     ]
-    fitting = (a or x in _ENERGIES or x.lower() in LINKING for a, x in zip(spoken, listed, strict=True))
+    letters = [sure and len(x) == 1 and x.isupper() for x in listed]  # disc + A:
+    fitting = (
+        a or b or x in _ENERGIES or x.lower() in LINKING for a, b, x in zip(spoken, letters, listed, strict=True)
+    )
     return any(spoken) and all(fitting) and not any(map(words.is_name, listed))
 
 
