@@ -1,4 +1,4 @@
-"""A term of a derivative or a force that no mistake speaks of is told as one of its own, and no other one is.
+"""A term of a derivative that no mistake speaks of is told as one of its own, and no other one is.
 
 Oracle: an upright bob on an axle, with a spring at the arm a that is stretched by e; its energies and forces by hand.
 """
@@ -52,6 +52,15 @@ def test_what_follows_is_not_told_again() -> None:
     """The weight in ∂L/∂θ follows from V."""
     alone = told(beater().check(answer(weight="-", pull="-")))
     assert len(alone) == 1 and "weight" in alone[0]
+
+
+def test_what_follows_from_a_wrong_velocity_is_not_told_as_its_own() -> None:
+    """The force that a wrong rate of a place leads to is no second mistake."""
+    lines = (
+        "y = l cos(theta)\ny' = -l cos(theta) theta'\nT = 1/2 m l^2 theta'^2\nV = m g l cos(theta)"
+        " + 1/2 k (e + a theta)^2\nXi_theta = u - b theta'\ndL/dtheta = m g l cos(theta) - k a (e + a theta)"
+    )
+    assert not any(x.startswith("In line 6") for x in told(beater().check(lines))[1:])
 
 
 def test_a_single_mistake_stays_alone() -> None:

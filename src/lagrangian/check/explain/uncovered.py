@@ -1,4 +1,4 @@
-"""The one term of a derivative or of a force that no mistake speaks of: it is a mistake of its own.
+"""The one term of a derivative that no mistake speaks of: it is a mistake of its own.
 
 V = −m g l cos θ + ½ k (e + a θ)²           the sign of the weight is wrong, and told
 ∂L/∂θ = −m g l sin θ − k (e + a θ)          that the factor a is lost belongs to no weight: it is told, too
@@ -12,8 +12,10 @@ from lagrangian.check.explain.terms_alone import LEFT_OVER, MOST_TOLD, term_mist
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import DERIVED, Finding, Mistake, Status, TermDifference, Verdict
 
-KINDS = ("p", *DERIVED, "Xi")
+KINDS = ("p", *DERIVED)
 """The lines that are compared term by term with what belongs there."""
+BLAMES = "Line "
+"""How words begin on a definition, of which more may follow than is found."""
 
 
 def with_uncovered_terms(verdict: Verdict) -> Verdict:
@@ -21,7 +23,8 @@ def with_uncovered_terms(verdict: Verdict) -> Verdict:
     told = verdict.mistakes
     if verdict.status is not Status.WRONG or verdict.hint == 0 or not told or any(m.element is None for m in told):
         return verdict
-    if any(str(note).endswith(LEFT_OVER) for note in verdict.notes):
+    blamed = any(str(m.what).startswith(BLAMES) for m in told)
+    if blamed or any(str(note).endswith(LEFT_OVER) for note in verdict.notes):
         return verdict
     found = [(f, d) for f in open_findings(verdict) if f.line.kind in KINDS for d in f.differences]
     open_ones = [(f, d) for f, d in found if d.origins and not any(_speaks_of(m, f, d) for m in told)]

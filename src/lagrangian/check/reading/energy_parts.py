@@ -168,7 +168,8 @@ class _Parts:
         row = self._row(text)
         kind = None if row is None else self._kind(row.label, text[row.start : row.end], ":" in text[: row.start])
         sides = [] if row is None else text[row.start : row.end].split("=")
-        whole = len(sides) == 1 or (self.kind is not None and kind == self.kind)
+        one = row is not None and len(self._bodies(row.label)) == 1
+        whole = len(sides) == 1 or (one and self.kind is not None and kind == self.kind)
         if row is not None and kind is not None and whole and all(self._is_energy(kind, x.strip()) for x in sides):
             return row.start, self._name(kind, row.label)
         row = row if len(sides) == 1 else None

@@ -138,6 +138,20 @@ def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedT
     return without_glosses_of_rates(pointed, names.changes)
 
 
+def _unprompted(text: TracedText) -> TracedText:
+    """An answer without the prompts of a session and the quotes of mail."""
+    return without_quotes(without_prompts(text))
+
+
+def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], bool]) -> TracedText:
+    """An answer in which letters that words alone tell from those of the system are what they stand for."""
+    if LATEX.search(text.text):
+        return text
+    moving = {key(c.name) for c in lines.model.coordinates}
+    spelled = lines.model.symbols.__contains__
+    return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
+
+
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
@@ -153,12 +167,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
-    prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
+    prompted = _with_letters_apart(with_columns(with_whole_matrices(_unprompted(shown))), lines, taken)
     own = {key(name) for name in lines.model.symbols}
-    if not LATEX.search(prompted.text):
-        prompted = with_letters_apart(
-            prompted, lambda name: key(name) in moving, lines.model.symbols.__contains__, taken, names.notes
-        )
     zero = residuals(with_declared(prompted, lambda name: key(name) in own), taken, names.changes)
     names.residuals = zero.names
     code = without_code(with_templates_applied(zero.written), taken, commands.append, session=is_session(text))
