@@ -6,7 +6,6 @@ Oracle: small systems with equations by hand. Every form has a wrong twin.
 from __future__ import annotations
 
 import pytest
-
 from small_systems import mass, rack, rod
 
 ROD = r"""\newcommand{\jt}{J_{\text{tot}}}

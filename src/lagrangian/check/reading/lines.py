@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
-from lagrangian.check.reading.amounts import amounts_to, without_amounts
+from lagrangian.check.reading.amounts import amounts_to, parameter_given, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
@@ -77,7 +77,7 @@ class Lines:
         self._chain = 0
         self._matrices: set[str] = set()
         self.remarks, self.doubts = (list[ParseError]() for _ in range(2))
-        """The errors of lines that matter only beside incomplete equations, and of those that redefine a name."""
+        """The errors of lines that matter only beside incomplete equations, and of those redefining a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
         """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
         self.unread: set[str] = set()
@@ -91,8 +91,7 @@ class Lines:
         self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
-        complete = self._complete()
-        found = [*errors, *([] if complete else self.remarks)]
+        found = [*errors, *([] if (complete := self._complete()) else self.remarks)]
         aside, results = list[ParseError](), list(self.results)
         for i in range(len(statements)):
             try:
@@ -230,6 +229,9 @@ class Lines:
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
             elif subject.kind == "definition" and amounts_to(above, value, self.model):
+                continue
+            elif subject.kind == "definition" and (given := parameter_given(above, value, self.model)) is not None:
+                lines.append(made_line("given", None, value, given, sides[0], side, reader))
                 continue
             elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
                 lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0

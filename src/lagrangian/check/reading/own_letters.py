@@ -22,9 +22,10 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, a D of positions
     if any line does, and a D of constants alone beside no T or L; and those that an equation with accelerations uses
-    alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value,
-    P = F x' - b theta'^2, or if a rate alone is equated to it, dE/dt = P, and a force if constants alone do, P = m g; K and R are forces if there are none,
-    K = k (x - u), and an equation of motion uses them, or neither a square nor an inertia is in them.
+    alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value, P =
+    F x' - b theta'^2, or if a rate alone is equated to it, dE/dt = P, and a force if constants alone do, P = m g; K
+    and R are forces if there are none, K = k (x - u), and an equation of motion uses them, or neither a square nor an
+    inertia is in them.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]

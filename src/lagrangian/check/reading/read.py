@@ -31,6 +31,7 @@ from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.plain.tokens import with_points
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
 from lagrangian.check.reading.programs.marks import (
     is_program,
@@ -356,7 +357,8 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
     text = beside_mathematics(written.text)
     if "=" not in text:
         return []
-    return [row for row in plain_rows(text, words) if is_statement(row.text, words)]
+    rows = [row for row in plain_rows(text, words) if is_statement(row.text, words)]
+    return [replace(row, text=with_points(row.text)) for row in rows]
 
 
 def _words(lines: Lines, text: str) -> Words:
