@@ -1,4 +1,4 @@
-"""What sheets say by the way: numbers below LaTeX, what a letter is with its value, definitions in words, forces in lists.
+"""What sheets say by the way: numbers below LaTeX, what a letter is with its value, definitions, forces in lists.
 
 Oracle: small systems with equations by hand. Every form has a wrong twin.
 """
@@ -60,3 +60,66 @@ def test_another_value_is_told_as_an_assumption() -> None:
     verdict = flap().check(SHORT.replace("30 deg", "1.5"))
     assert verdict.right and "1.5" in verdict.to_text()
     assert flap().check(SHORT.replace("theta0 = 30 deg", "theta0"), hint=0).right
+
+
+@cache
+def lift() -> lg.Derivation:
+    """A flap on a lift: a damper and a spring at the lift, a damper and a motor at the hinge, a force at the tip."""
+    s = lg.System("lift with a flap")
+    y, theta = s.coordinates("y theta")
+    M, J, k, c, d, l = s.parameters("M J k c d l")
+    s.particle(M, at=s.point("A", (0, y)), name="lift")
+    s.kinetic(J * theta.diff() ** 2 / 2, name="flap")
+    s.spring(k, deflection=y)
+    s.damper(c, deflection=y, name="guide")
+    s.damper(d, deflection=theta, name="hinge")
+    s.torque(s.input("tau"), on=theta, name="motor")
+    s.force(s.input("R"), deflection=y - l * sp.sin(theta), name="tip")
+    return s.derive()
+
+
+LISTED = """φ = θ
+T = 1/2·M·ẏ² + 1/2·J·φ̇²
+V = 1/2·k·y²
+Kräfte:
+- Führung: −c·ẏ in y
+- Drehdämpfer: −d·φ̇ in φ
+- Motor: +τ in φ
+- Kraft R in P: Q_y = R, Q_φ = −R·l·cos φ
+
+M·ÿ + c·ẏ + k·y = R
+J·φ̈ + d·φ̇ = τ − R·l·cos φ"""
+
+
+@pytest.mark.parametrize("own", ["φ", "θ"])
+@pytest.mark.parametrize("word", ["in", "auf", "on", "for"])
+def test_a_force_behind_the_name_of_an_element_is_of_this_element_alone(own: str, word: str) -> None:
+    text = LISTED.replace(" in y", f" {word} y").replace(" in φ", f" {word} φ")
+    text = text.replace("φ = θ\n", "").replace("φ", own) if own == "θ" else text
+    verdict = lift().check(text)
+    assert verdict.right and verdict.to_text().count("a part of it") == 5
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong", "told"),
+    [
+        ("+τ in", "−τ in", "wrong sign"),
+        ("−c·ẏ in", "+c·ẏ in", "wrong sign"),
+        ("−d·φ̇ in", "−d·φ in", ""),
+        ("Q_φ = −R", "Q_φ = R", "sign"),
+        ("l·cos φ\n\n", "l·sin φ\n\n", ""),
+    ],
+)
+def test_of_listed_forces_the_wrong_one_is_told(now: str, wrong: str, told: str) -> None:
+    assert now in LISTED
+    verdict = lift().check(LISTED.replace(now, wrong))
+    bad = [f for f in verdict.findings if not f.status.right]
+    assert not verdict.right and len(bad) == 1 and told in verdict.to_text()
+    assert len(bad[0].differences) < 3
+
+
+def test_what_a_list_leaves_out_is_told_except_dampers_in_the_equations() -> None:
+    listed = LISTED.replace("- Drehdämpfer: −d·φ̇ in φ\n", "").replace("- Führung: −c·ẏ in y\n", "")
+    assert lift().check(listed).right
+    assert not lift().check(LISTED.replace("- Motor: +τ in φ\n", "")).right
+    assert not lift().check(LISTED.replace("Kraft R in P: Q_y", "Kräfte: Q_y").replace("- Motor: +τ in φ\n", "")).right

@@ -22,6 +22,7 @@ from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
@@ -191,7 +192,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_stated_values(with_explained_names(starred, taken, lambda name: key(name) in own), taken)
         said = with_stated_rates(said, of, names.known, sure=True)
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
-        said = with_items(named, text, names)
+        said = with_items(with_forces_by_element(named, taken), text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
