@@ -123,3 +123,49 @@ def test_what_a_list_leaves_out_is_told_except_dampers_in_the_equations() -> Non
     assert lift().check(listed).right
     assert not lift().check(LISTED.replace("- Motor: +τ in φ\n", "")).right
     assert not lift().check(LISTED.replace("Kraft R in P: Q_y", "Kräfte: Q_y").replace("- Motor: +τ in φ\n", "")).right
+
+
+BALANCE = """E = T + V with
+T = 1/2 I y'^2 + 1/2 A θ'^2
+V = 1/2 k y^2
+
+where I is the whole mass M + 0, S stands for R l and A for J + 0 M.
+
+dE/dt = I y' y'' + A θ' θ'' + k y y'
+
+I y'' + c y' + k y = R
+A θ'' + d θ' + S cos θ = τ""".replace(" + 0 M", " + J - J").replace(" + 0", " + M - M")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "where I is the whole mass M + M - M, S stands for R l and A for J + J - J.",
+        "Here S is R*l, A stands for J + J - J, and I for M + M - M.",
+        "S steht für R·l, A für J + J - J und I für M + M - M",
+        "where I denotes M + M - M and S is short for R l, A being J + J - J",
+    ],
+)
+def test_a_list_of_definitions_may_say_its_verb_once(said: str) -> None:
+    text = BALANCE.replace("where I is the whole mass M + M - M, S stands for R l and A for J + J - J.", said)
+    assert said in text
+    verdict = lift().check(text)
+    assert verdict.right and "coordinates were read" not in verdict.to_text()
+    for now, wrong in [
+        ("J + J - J", "J + J"),
+        ("M + M - M", "M + M"),
+        ("R l", "2*R l"),
+        ("R*l", "R*R"),
+        ("R·l", "J·l"),
+    ]:
+        if now in said:
+            assert not lift().check(text.replace(now, wrong), hint=0).right
+
+
+def test_a_sum_of_energies_has_their_values_below_it() -> None:
+    assert not lift().check(BALANCE.replace("+ k y y'", "- k y y'"), hint=0).right
+    assert not lift().check(BALANCE.replace("V = 1/2 k y^2", "V = k y^2"), hint=0).right
+    plain = "E = T + V\nT = M y'^2/2 + J θ'^2/2\nV = k y^2/2\ndE/dt = M y' y'' + J θ' θ'' + k y y'\n"
+    rows = "M y'' + c y' + k y = R\nJ θ'' + d θ' + R l cos θ = τ"
+    verdict = lift().check(plain + rows)
+    assert verdict.right and "E = " not in verdict.to_text().split("Line by line")[0]

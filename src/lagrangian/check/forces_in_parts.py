@@ -80,7 +80,7 @@ def _is_list(truth: Reference, found: Sequence[Finding], at: Sequence[int]) -> b
 
 def _letters(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
     """The parameters and inputs in an expression."""
-    named = {x.symbol for x in (*truth.model.parameters, *truth.model.inputs)}
+    named = set[sp.Basic](x.symbol for x in (*truth.model.parameters, *truth.model.inputs))
     return named & bounded.letters(truth.expand(expr))
 
 

@@ -25,7 +25,8 @@ _ITEM = re.compile(
 )
 _STATED = re.compile(r"(?<!\w)(?P<letter>Q|Xi|Ξ)_(?P<of>[^\W\d_]\w{0,24})[ \t]*=(?!=)")
 _IN_WORDS = re.compile(
-    rf"[ \t]*+(?P<force>[^=:;,\n]{{1,120}}?)(?P<tail>[ \t]++(?:in|on|auf|für|for|along|entlang)[ \t]++(?P<of>{_NAME})[ \t]*+[.,;]?[ \t]*+)\Z"
+    r"[ \t]*+(?P<force>[^=:;,\n]{1,120}?)(?P<tail>[ \t]++(?:in|on|auf|für|for|along|entlang)[ \t]++"
+    rf"(?P<of>{_NAME})[ \t]*+[.,;]?[ \t]*+)\Z"
 )
 _WORD = re.compile(_NAME)
 

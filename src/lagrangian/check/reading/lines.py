@@ -93,7 +93,7 @@ class Lines:
         self._collect()
         found = [*errors, *([] if (complete := self._complete()) else self.remarks)]
         aside, results = list[ParseError](), list(self.results)
-        for i in range(len(statements)):
+        for i in self.energies.order(statements):
             try:
                 self._line(i)
                 self._made[i] += self.energies.whole(i, self._made)

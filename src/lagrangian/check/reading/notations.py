@@ -61,6 +61,7 @@ from lagrangian.check.reading.said.derivative_legends import (
 )
 from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
+from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.stands_for import (
@@ -136,6 +137,16 @@ def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedT
     return without_glosses_of_rates(pointed, names.changes)
 
 
+def _with_said_letters(
+    text: TracedText, names: Names, taken: Callable[[str], bool], own: Collection[str]
+) -> TracedText:
+    """An answer in which what sentences say of its letters stands as statements."""
+    latex = bool(LATEX.search(text.text))
+    listed = text if latex else with_listed_names(text, taken, lambda name: key(name) in own)
+    said = with_stated_letters(listed, names.changes, taken, latex=latex)
+    return with_called_dissipation(with_values_above(said), taken)
+
+
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
@@ -179,8 +190,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     inputs, moving = ({key(x.name) for x in some} for some in (lines.model.inputs, lines.model.coordinates))
     tagless = with_deviations(tagless, lambda name: key(name) in moving, lambda name: key(name) in inputs)
     varied = with_variations(tagless, taken, None if latex else names.changes)
-    said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
-    said = with_called_dissipation(with_values_above(said), taken)
+    said = _with_said_letters(varied, names, taken, own)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
         said = with_named_formulas(said, taken)

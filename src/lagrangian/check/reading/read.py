@@ -18,7 +18,6 @@ from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.defined_functions import called_definitions
 from lagrangian.check.reading.indexed import counted_names, without_indices
-from lagrangian.check.reading.latex.layout import with_plain_indices
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.latex.variants import with_variants_apart
@@ -227,8 +226,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     _check_length(source)
     own = {key(name) for name in model.symbols}
     written = written_out(source) if latex else None
-    read = text if written is None else with_plain_indices(written.text)
-    stated = dependents(read, lambda name: key(name) in own, lines.names.changes)
+    stated = dependents(written.text if written else text, lambda name: key(name) in own, lines.names.changes)
     lines.names.dependents = stated | called_definitions(text, lines.names)
     words = _words(lines, text)
     _choose(reading, words, lines, given)

@@ -20,18 +20,7 @@ _ENVIRONMENT = re.compile(r"\\begin\{(?P<kind>(?:align|gather|flalign|alignat)\*
 _BETWEEN = re.compile(r"\\(?:short)?intertext\s*\{")
 _ROW_ENDS = re.compile(r"(?:\\\\(?:\[[^\]]{0,12}\])?|\\begin\{[a-z]{1,12}\*?\}(?:\{\d\})?)\s*\Z")
 """What stands before the beginning of a row."""
-_UPRIGHT_INDEX = re.compile(
-    r"_\s{0,3}(?:\\(?:text|textrm|textup|mathrm|mathit|mathsf)\s{0,3}\{\s{0,3}(?P<bare>\w{1,20})\s{0,3}\}"
-    r"|\{\s{0,3}\\(?:text|textrm|textup|mathrm|mathit|mathsf)(?:\s{0,3}\{\s{0,3}(?P<word>\w{1,20})\s{0,3}\}"
-    r"|\s{1,3}(?P<letter>[A-Za-z]))\s{0,3}\})"
-)
-"""An index in upright letters."""
 _MAX = 200
-
-
-def with_plain_indices(text: str) -> str:
-    r"""Return LaTeX with indices in the letters of formulas: J_{\\text{tot}} and J_{\\mathrm{tot}} as J_{tot}."""
-    return _UPRIGHT_INDEX.sub(lambda m: f"_{{{m['bare'] or m['word'] or m['letter']}}}", text)
 
 
 def with_open_text(written: TracedText) -> TracedText:
