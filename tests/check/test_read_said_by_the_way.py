@@ -169,3 +169,39 @@ def test_a_sum_of_energies_has_their_values_below_it() -> None:
     rows = "M y'' + c y' + k y = R\nJ θ'' + d θ' + R l cos θ = τ"
     verdict = lift().check(plain + rows)
     assert verdict.right and "E = " not in verdict.to_text().split("Line by line")[0]
+
+
+@cache
+def bead() -> lg.Derivation:
+    """A bead on a rail, drawn by a cord to a point at the distance h."""
+    s = lg.System("bead")
+    x = s.coordinate("x")
+    m, k, h, a, b = s.parameters("m k h a b")
+    s.particle(m, at=s.point("B", (x, 0)), name="bead")
+    s.spring(k, deflection=sp.sqrt(x**2 + h**2) - a, name="cord")
+    s.damper(b, deflection=x)
+    s.force(s.input("F"), deflection=x)
+    return s.derive()
+
+
+BEAD = """S = k (sqrt(x^2+h^2) - a)
+I write cos beta = x/sqrt(x^2+h^2), sin beta = h/sqrt(x^2+h^2).
+m x'' = F - b x' - S cos beta
+S sin beta x = h S cos beta"""
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I write cos beta = x/sqrt(x^2+h^2), sin beta = h/sqrt(x^2+h^2).",
+        "with sin beta = h/sqrt(x^2+h^2) and cos beta = x/sqrt(x^2+h^2)",
+        "r = sqrt(x^2+h^2)\ncos beta = x/r\nsin beta = h/r",
+    ],
+)
+def test_an_angle_given_by_cosine_and_sine_has_the_signs_of_both(said: str) -> None:
+    text = BEAD.replace("I write cos beta = x/sqrt(x^2+h^2), sin beta = h/sqrt(x^2+h^2).", said)
+    assert bead().check(text).right
+    for now, wrong in [("- S cos beta", "+ S cos beta"), ("cos beta = x", "cos beta = 2 x"), ("h S cos", "h S sin")]:
+        assert now in text and not bead().check(text.replace(now, wrong), hint=0).right
+    exchanged = text.replace("cos beta = x", "cos beta = h").replace("sin beta = h", "sin beta = x")
+    assert not bead().check(exchanged, hint=0).right

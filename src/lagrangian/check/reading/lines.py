@@ -38,6 +38,7 @@ from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, has_matrix, is_matrix, names_in, only_name
+from lagrangian.check.reading.own_angles import own_angle
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tell_general, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
@@ -84,10 +85,8 @@ class Lines:
         """The names in parts of the answer that were not read."""
 
     def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
-        """Return the lines of the statements, in their order.
-
-        Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
-        """
+        """Return the lines of the statements, in their order; raise one error for all statements that cannot be read,
+        ``errors`` included, in the order of their places."""
         self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
@@ -287,7 +286,7 @@ class Lines:
         if subject.order:
             self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
         else:
-            self.names.define(subject.token, getattr(sp, subject.inverse)(value) if subject.inverse else value)
+            self.names.define(subject.token, own_angle(subject, value, self._statements, self.names, self.budget))
 
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
