@@ -96,7 +96,7 @@ def judged_lines(
     findings, named = without_own_names(truth, lines, findings)
     aside = (*called, *aside, *named)
     if change is None:
-        findings = with_forces_in_parts(truth, findings)
+        findings = with_forces_in_parts(truth, findings, moved)
         findings = with_effective_potential(truth, findings, motion=of_equations(truth, comparison).right)
         findings = follow_from_derivatives(truth, right_together(truth, with_right_derivatives(truth, findings)))
         findings = follow_from_definitions(

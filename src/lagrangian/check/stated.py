@@ -158,6 +158,15 @@ def judge(
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
 
 
+def whole_forces(truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine) -> list[sp.Expr]:
+    """What a line of a Ξ may state as a whole: Ξ by each coordinate of its name, and Ξ without the dampers where it may
+    be meant so."""
+    stated_for = _stated_for(truth, lines, line, None)
+    whole = [own.along(name, _forces(truth, truth.Xi)) for own, name in stated_for]
+    undamped = (_undamped(truth, line, by, lines) for by in stated_for)
+    return [*whole, *(x for x in undamped if x is not None)]
+
+
 By = tuple[OwnCoordinates, str]
 """Coordinates, and the key of one of them."""
 

@@ -126,7 +126,8 @@ def with_own_quantities(
     found: list[AnsweredLine] = []
     for line in lines:
         quantity = _stated(line)
-        if quantity is not None and key(quantity[1]) in own.columns and stated[line.name] == 1:
+        once = quantity is not None and (stated[line.name] == 1 or quantity[0] == "Xi")  # forces may be listed in parts
+        if quantity is not None and key(quantity[1]) in own.columns and once:
             line = replace(line, kind=quantity[0], name=names.get(key(quantity[1]), quantity[1]))
         elif of_place(line) and line.name in coordinates and key(line.name) not in own.columns:
             k = coordinates.index(line.name)

@@ -21,12 +21,20 @@ def amounts_to(value: Any, number: Any, model: Model, *, one: bool = False) -> b
         return False
     if not value.free_symbols <= model.values.keys():
         return False
-    factor, unit = number.as_coeff_Mul()
+    factor, unit = (number, sp.S.One) if number.is_number else number.as_coeff_Mul()  # 20° is π/9
     factors: Any = unit.args or [unit]
     if unit != 1 and not all(isinstance(x, sp.Expr) and x.as_base_exp()[0].is_Symbol for x in factors):
         return False
     amount = value.xreplace({p: sp.Float(v) for p, v in model.values.items()})
     return bool(amount.is_Float and abs(amount - factor) <= ROUNDED * abs(factor) and (one or factor != 1))
+
+
+def parameter_given(value: Any, number: Any, model: Model) -> str | None:
+    """The parameter that a name was said to be, if a number follows: th0 = theta0 = 20°, its value and not another of
+    the name; None otherwise."""
+    if not isinstance(number, sp.Expr) or not number.is_number or number == 0:
+        return None
+    return next((p.name for p in model.parameters if p.symbol == value), None)
 
 
 def without_amounts(values: list[Value], sides: list[Tree], model: Model) -> tuple[list[Value], list[Tree]]:

@@ -31,6 +31,12 @@ _MATRIX = re.compile(r"\s*(?:\[|\\begin|\\left)")
 _RATES = frozenset(["dot", "ddot", "der"])
 """What is written as a function and is a rate: ddot(x) = …"""
 
+_UPRIGHT_INDEX = re.compile(
+    r"_\s{0,3}(?:\\(?:text|textrm|textup|mathrm|mathit|mathsf)\s{0,3}\{\s{0,3}(?P<bare>\w{1,20})\s{0,3}\}"
+    r"|\{\s{0,3}\\(?:text|textrm|textup|mathrm|mathit|mathsf)(?:\s{0,3}\{\s{0,3}(?P<word>\w{1,20})\s{0,3}\}"
+    r"|\s{1,3}(?P<letter>[A-Za-z]))\s{0,3}\})"
+)
+"""An index in upright letters."""
 _MAX = 100
 """The largest number of such quantities."""
 
@@ -49,6 +55,7 @@ _OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
 def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> frozenset[str]:
     """Return the quantities that an answer states with what they depend on, as I(r), or that it has with coordinates
     behind them; ``taken`` are names of the system, which are no such quantities unless they are given a matrix."""
+    text = _with_plain_indices(text)
     found = {f"{written(m['name'])}({written(m['of'])})" for m in _called(text, taken, changes) if not m["prime"]}
     for match in _STATED.finditer(text):
         name, of = written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right")
@@ -58,6 +65,11 @@ def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str],
         if len(found) < _MAX and first and free and all(_QUANTITY.match(x) for x in re.split("[,;]", of)):
             found.add(f"{name}({written(of)})")
     return frozenset(found)
+
+
+def _with_plain_indices(text: str) -> str:
+    r"""Return LaTeX with indices in the letters of formulas: J_{\\text{tot}} and J_{\\mathrm{tot}} as J_{tot}."""
+    return _UPRIGHT_INDEX.sub(lambda m: f"_{{{m['bare'] or m['word'] or m['letter']}}}", text)
 
 
 def value_stated(name: str, text: str) -> str | None:

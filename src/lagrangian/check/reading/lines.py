@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
-from lagrangian.check.reading.amounts import amounts_to, without_amounts
+from lagrangian.check.reading.amounts import amounts_to, parameter_given, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
@@ -39,6 +39,7 @@ from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, has_matrix, is_matrix, names_in, only_name
+from lagrangian.check.reading.own_angles import own_angle
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tell_general, tell_vectors, tells, why_not_judged, without_parts
 from lagrangian.check.reading.placeholders import (
@@ -80,23 +81,21 @@ class Lines:
         self._chain = 0
         self._matrices: set[str] = set()
         self.remarks, self.doubts = (list[ParseError]() for _ in range(2))
-        """The errors of lines that matter only beside incomplete equations, and of those that redefine a name."""
+        """The errors of lines that matter only beside incomplete equations, and of those redefining a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
         """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
         self.unread: set[str] = set()
         """The names in parts of the answer that were not read."""
 
     def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
-        """Return the lines of the statements, in their order.
-
-        Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
-        """
+        """Return the lines of the statements, in their order; raise one error for all statements that cannot be read,
+        ``errors`` included, in the order of their places."""
         self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
         complete, aside, results = self._complete(), list[ParseError](), list(self.results)
         found = [*errors, *([] if complete else self.remarks)]
-        for i in range(len(statements)):
+        for i in self.energies.order(statements):
             try:
                 self._line(i)
                 self._made[i] += self.energies.whole(i, self._made)
@@ -233,6 +232,9 @@ class Lines:
                 lines += self._matrix_of(subject, value, sides[0], reader)
             elif subject.kind == "definition" and amounts_to(above, value, self.model):
                 continue
+            elif subject.kind == "definition" and (given := parameter_given(above, value, self.model)) is not None:
+                lines.append(made_line("given", None, value, given, sides[0], side, reader))
+                continue
             elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
                 lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0
             elif above is not None and subject.kind == "p-rate" and accelerates(above) and not accelerates(value):
@@ -287,7 +289,7 @@ class Lines:
         if subject.order:
             define_rate(subject.token, subject.order, value, self.names, self.subjects.bare)
         else:
-            self.names.define(subject.token, getattr(sp, subject.inverse)(value) if subject.inverse else value)
+            self.names.define(subject.token, own_angle(subject, value, self._statements, self.names, self.budget))
 
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
@@ -360,11 +362,10 @@ class Lines:
         return [x for (a, b), (left, right) in pairs for x in self._equation(a, b, left, right, reader)]
 
     def _equation(self, left: Value, right: Value, a: Tree, b: Tree, reader: Meaning) -> list[AnswerLine]:
-        pairs = [(left, right)]
         if is_vector(left) or is_vector(right):
             return tell_vectors((left, right), (a, b), reader)
-        if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
-            pairs = matrix_rows(left, right, b, reader)
+        matrices = isinstance(left, MatrixBase) or isinstance(right, MatrixBase)
+        pairs = matrix_rows(left, right, b, reader) if matrices else [(left, right)]
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
 
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
@@ -392,8 +393,7 @@ class Lines:
 
     def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:
         """Tell that an equation of this system is not judged, because it derives something that has no value."""
-        rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
-        pairs = ((left, right), (right, left))
+        rates, pairs = left.atoms(sp.Derivative) | right.atoms(sp.Derivative), ((left, right), (right, left))
         if any((is_slope(x) or is_slope(-x)) and not is_general(y) for x, y in pairs) or any(
             d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates
         ):

@@ -22,6 +22,7 @@ from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
@@ -62,6 +63,7 @@ from lagrangian.check.reading.said.derivative_legends import (
 )
 from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
+from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
@@ -152,6 +154,16 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
     return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
 
 
+def _with_said_letters(
+    text: TracedText, names: Names, taken: Callable[[str], bool], own: Collection[str]
+) -> TracedText:
+    """An answer in which what sentences say of its letters stands as statements."""
+    latex = bool(LATEX.search(text.text))
+    listed = text if latex else with_listed_names(text, taken, lambda name: key(name) in own)
+    said = with_stated_letters(listed, names.changes, taken, latex=latex)
+    return with_called_dissipation(with_values_above(said), taken)
+
+
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
@@ -193,8 +205,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)
-    said = with_stated_letters(varied, names.changes, taken, latex=bool(LATEX.search(tagless.text)))
-    said = with_called_dissipation(with_values_above(said), taken)
+    said = _with_said_letters(varied, names, taken, own)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
         said = _in_latex(with_named_formulas(said, taken))
@@ -204,7 +215,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_stated_values(with_explained_names(starred, taken, lambda name: key(name) in own), taken)
         said = with_stated_rates(said, of, names.known, sure=True)
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
-        said = with_items(named, text, names)
+        said = with_items(with_forces_by_element(named, taken), text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)

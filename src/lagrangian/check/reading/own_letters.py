@@ -7,11 +7,14 @@ from collections.abc import Collection, Iterator, Sequence
 from lark import Token, Tree
 
 from lagrangian.check.reading.energy_parts import inertia_letters
-from lagrangian.check.reading.nodes import names_in, only_name, without_minus
+from lagrangian.check.reading.nodes import inside, names_in, only_name, without_minus
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subjects
 from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
+
+POWER = "P"
+"""The letter of a power, and of potential energy."""
 
 
 def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
@@ -19,9 +22,10 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, a D of positions
     if any line does, and a D of constants alone beside no T or L; and those that an equation with accelerations uses
-    alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value,
-    P = F x' - b theta'^2, and a force if constants alone do, P = m g; K and R are forces if there are none,
-    K = k (x - u), and an equation of motion uses them, or neither a square nor an inertia is in them.
+    alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value, P =
+    F x' - b theta'^2, or if a rate alone is equated to it, dE/dt = P, and a force if constants alone do, P = m g; K
+    and R are forces if there are none, K = k (x - u), and an equation of motion uses them, or neither a square nor an
+    inertia is in them.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -29,17 +33,19 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
     found = set(_used_as_names(statements, first, subjects))
+    if any(map(_equates_to_power, statements)) and not names.scope.meanings(POWER)[0]:
+        found.add(POWER)
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
         kind = None if named is None or named[1] else energy_of(named[0], model, lhs=True)
         if named is None or kind is None:
             continue
         listed = [str(x) for side in sides[1:] for x, _ in names_in(side)]
-        own = str(named[0]) == "P" and not names.scope.meanings("P")[0]
+        own = str(named[0]) == POWER and not names.scope.meanings(POWER)[0]
         constants = {p.name for p in model.parameters}
         fixed = bool(listed) and all(constants.issuperset(names.scope.meanings(x)[0] or [x]) for x in listed)
         if own and (moving[k] or fixed or any(key(x) in rates for x in listed)):
-            found.add("P")
+            found.add(POWER)
         if moving[k]:
             found |= {key(str(named[0]))} if kind == "D" and _is_force_of_damper(sides) else set()
             continue
@@ -77,6 +83,17 @@ def _is_force_of_damper(sides: Sequence[Tree]) -> bool:
     A dissipation function is never negative.
     """
     return len(sides) == 2 and without_minus(sides[1])[1] and not _squares(sides[1])
+
+
+def _equates_to_power(sides: Sequence[Tree]) -> bool:
+    """Whether a side of a statement is P, and another the rate of something: dE/dt = P, no potential energy."""
+    alone = [only_name(side) for side in sides]
+    named = any(x is not None and not x[1] and str(x[0]) == POWER for x in alone)
+    rated = (
+        getattr(inside(side), "data", "") == "rate" or (x is not None and x[1] == 1)
+        for side, x in zip(sides, alone, strict=True)
+    )
+    return named and any(rated)
 
 
 def _is_constant(

@@ -30,6 +30,7 @@ from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.plain.tokens import with_points
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
 from lagrangian.check.reading.programs.marks import (
     is_program,
@@ -224,12 +225,12 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     source = plain.source(typed, text)
     _check_length(source)
     own = {key(name) for name in model.symbols}
-    stated = dependents(text, lambda name: key(name) in own, lines.names.changes)
+    written = written_out(source) if latex else None
+    stated = dependents(written.text if written else text, lambda name: key(name) in own, lines.names.changes)
     lines.names.dependents = stated | called_definitions(text, lines.names)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
     source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
-    written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
     _check_number(rows, source, written)
@@ -354,7 +355,8 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
     text = beside_mathematics(written.text)
     if "=" not in text:
         return []
-    return [row for row in plain_rows(text, words) if is_statement(row.text, words)]
+    rows = [row for row in plain_rows(text, words) if is_statement(row.text, words)]
+    return [replace(row, text=with_points(row.text)) for row in rows]
 
 
 def _words(lines: Lines, text: str) -> Words:

@@ -14,7 +14,7 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.energy_parts import inertia_letters
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.names import Names
-from lagrangian.check.reading.nodes import derived, names_in
+from lagrangian.check.reading.nodes import derived, names_in, only_name
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject
 from lagrangian.errors import listed
@@ -57,6 +57,20 @@ class PartsOfEnergies:
             numbered = kind not in self.names.stating and are_numbered([str(s.token) for _, s in named])
             if (kind in used or numbered) and len(named) == len(alone) > 1:
                 self._parts[kind] = {i: str(s.token) for i, s in named}
+
+    def order(self, statements: Sequence[Statement]) -> list[int]:
+        """The numbers of the statements as they are read: a name for energies alone, E = T + V, behind the lines that
+        say what these are, which may stand below it."""
+        later = {i for i, s in enumerate(statements) if self._adds(s)}
+        return sorted(range(len(statements)), key=lambda i: (i in later, i))
+
+    def _adds(self, statement: Statement) -> bool:
+        """Whether a statement gives energies that others state a name of its own."""
+        named = only_name(statement.sides[0]) if len(statement.sides) == 2 else None
+        if named is None or named[1] or energy_of(named[0], self.model, lhs=True) or self.names.known(named[0]):
+            return False
+        kinds = [energy_of(x, self.model) for x, _ in names_in(statement.sides[1])]
+        return len(kinds) > 1 and all(kind is not None and kind in self.names.stating for kind in kinds)
 
     def whole(self, i: int, made: Mapping[int, Sequence[AnswerLine]]) -> list[AnswerLine]:
         """The line that states an energy as the sum of its parts, behind the last of them."""

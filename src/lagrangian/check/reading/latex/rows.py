@@ -33,14 +33,17 @@ _DISPLAYS = [
 _OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
 _WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
+_THIN = r"(?:\s|~|\\[,;:!> ]|\\q?quad(?![A-Za-z])|\{\s?\})*+"
+"""Space between a large bracket and what stands in it."""
 _WRAPPER = re.compile(
-    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[)\s*)?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
-    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\s*\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[){_THIN})?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
+    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
 )
 _SYSTEM = re.compile(
-    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.){_THIN})?"
+    r"\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
     r"(?P<rows>(?:(?!\\begin|\\end)[^=])*=(?:(?!\\begin\{(?P=kind)\}).)*?)\\end\{(?P=kind)\}"
-    r"(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    rf"(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace))?",
     re.DOTALL,
 )
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")

@@ -24,8 +24,9 @@ _TOKEN = re.compile(
     | (?P<rowsep>\\\\(?:\s*\[[^\]\n]{0,20}\])?)
     | (?P<begin>\\begin\s*\{(?P<opens>\w+\*?)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?)
     | (?P<end_>\\end\s*\{\w+\*?\})
-    | \\(?:mathrm|mathit|mathsf|operatorname\*?|text|textrm|mathnormal|rm)\s*\{(?P<upright>[^{}]{0,80})\}
+    | \\(?:mathrm|mathit|mathsf|operatorname\*?|text|textrm|textup|mathup|mathnormal|rm)\s*\{(?P<upright>[^{}]{0,80})\}
     | \\(?:mathrm|mathsf|mathit|textrm)\s*(?P<letter>[A-Za-z])
+    | \\(?:text|textup|mathup)\s+(?P<letter1>[A-Za-z])
     | \\(?:mathbf|boldsymbol|bm|pmb|underline)\s*
       (?:\{\s*\\?(?P<bold>[A-Za-z]+)\s*\}|\\?(?P<bold1>(?<=\\)[A-Za-z]+|[A-Za-z]))
     | \\(?:mathcal|mathscr|mathfrak)\s*(?:\{\s*(?P<script>[A-Za-z])\s*\}|(?P<script1>[A-Za-z]))
@@ -84,7 +85,7 @@ def tokenize(source: Source) -> list[AnswerToken]:
         text = match[kind]
         if kind == "command":
             kind, text = _command(text, source, start)
-        elif kind in ("upright", "letter"):
+        elif kind in ("upright", "letter", "letter1"):
             kind, text = _word(text, source, start)
         elif kind in ("bold", "bold1"):
             kind, text = "symbol", f"bold {text}"

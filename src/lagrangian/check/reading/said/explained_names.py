@@ -58,11 +58,11 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
         words = re.findall(r"[^\W\d_]+", match["words"])
         spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
         changed = any(x.lower() in CHANGING for x in words) or _is_rate(match["words"], match["new"])
-        if spoken and not changed and _is_new(match, text, exact) and _is_formula(match["value"], taken):
+        if spoken and not changed and _is_new(match, text, exact) and is_formula(match["value"], taken):
             edits.append((match.start("new"), match.start("value"), f"{match['new']}{match['of'] or ''} = "))
     for match in islice(_SAID.finditer(text), MOST):
         own = match["new"] not in _names(match["value"]) and _is_new(match, text, exact)
-        if own and _is_formula(match["value"], taken):
+        if own and is_formula(match["value"], taken):
             edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
             edits.append((*match.span("end"), ";"))
     return written.edited(apart(edits))
@@ -89,7 +89,7 @@ def _names(value: str) -> list[str]:
     return [x for x in listed if function_of(x) is None]
 
 
-def _is_formula(value: str, taken: Callable[[str], bool]) -> bool:
+def is_formula(value: str, taken: Callable[[str], bool]) -> bool:
     """Whether this is a formula in names of the system, and no unit: m/s."""
     names = _names(value)
     if not names or _OPERATOR.search(value) is None or (UNITS.issuperset(names) and _SUM.search(value) is None):
