@@ -110,7 +110,7 @@ def is_true_number(line: AnsweredLine) -> bool:
     no equation of motion."""
     if line.kind == "equation" and line.sides is not None and all(x.is_Rational for x in line.sides):
         value, number = line.sides
-        return number != 0 and (value == number or _is_rounded_from(number, value))
+        return number not in (0, value) and _is_rounded_from(number, value)
     if line.kind != "equation" or not line.expr.is_Add or not line.expr.is_number:
         return False
     number, rest = line.expr.as_coeff_Add()

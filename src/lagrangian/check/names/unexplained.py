@@ -56,9 +56,6 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     given = {key(d.symbol.name) for d in derivation.definitions}
     asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given] + renamed
     moving = _moving(derivation.model, lines, answer)
-    moving = (
-        moving if any(f.status.right and f.line.expr.has(*(u.symbol for u in moving)) for f in verdict.findings) else []
-    )
     told = answer.mentioned
     asked = [u for u in asked if u not in moving and (u.name in told or not _is_known(u, derivation.model, lines))]
     at_rest = set(values_at_rest(truth_of(derivation), lines).values())

@@ -28,7 +28,8 @@ def with_primed_constants(written: TracedText, is_constant: Callable[[str], bool
         bare = name.replace("{", "").replace("}", "")
         again = rf"(?<![\w\\]){re.escape(name)}"
         rates = re.search(rf"{again}['’′]{{2}}|dot\s?\{{?\s?{re.escape(name)}(?!\w)", written.text)
-        if not is_constant(bare) or moves(match["value"]) or "dot" in match["value"] or rates is not None:
+        spoken = re.search(r"[^\W\d_]", match["value"]) is not None  # g' = 0 says that it has a rate
+        if not spoken or not is_constant(bare) or moves(match["value"]) or "dot" in match["value"] or rates is not None:
             continue
         form = re.compile(rf"{again}(?:['’′](?!['’′])|\^\{{?\\prime\}}?)")
         written = written.sub(form, lambda m, bare=bare: f"{bare}prime" if "_" in bare else f"{bare}_prime")
