@@ -134,3 +134,10 @@ def test_what_words_say_is_found_by_coordinate() -> None:
     assert said.ways == (("phi", "clockwise"),)
     assert stated_coordinates("y is taken from the upper vertical", ["y"]).axes == (("y", "upright"),)
     assert not stated_coordinates("the spring is at rest. x' = 0", ["x"])
+
+
+def test_degrees_in_words_are_added_to_an_angle() -> None:
+    said = "My angle is called u, so theta = u + 90 deg\n(J + m l^2) u'' + m g l {}(u) = M"
+    assert rod().check(said.format("cos")).right
+    assert not rod().check(said.format("sin")).right
+    assert not rod().check(said.format("cos").replace("90", "180")).right

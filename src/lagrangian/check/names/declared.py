@@ -90,7 +90,8 @@ def _implicit(
     truth: Reference, lines: Sequence[AnsweredLine]
 ) -> tuple[tuple[AnsweredLine, ...], dict[sp.Basic, sp.Expr]]:
     """The lines, those that define names marked as definitions, and the value of each name."""
-    known = {p.symbol for p in truth.model.parameters}
+    model = truth.model
+    known = {p.symbol for p in model.parameters} | {cast("sp.Symbol", d.symbol) for d in model.definitions}
     waiting = {k: line.expr for k, line in enumerate(lines) if line.kind == "equation" and _constant(line.expr, known)}
     at_rest = (x for x in equations_at_rest(truth, lines) if _constant(x, known))
     waiting |= {len(lines) + k: x for k, x in enumerate(at_rest)}

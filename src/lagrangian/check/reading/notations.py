@@ -87,6 +87,8 @@ _STAR_BELOW = re.compile(r"_(?:\\(?P<sign>ast|star)(?![A-Za-z])|\{\\(?P<within>a
 """An index that is a star, in LaTeX: J_\\ast."""
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
+_ADDED_DEGREES = re.compile(r"(?P<sign>[-+−])[ ]?(?P<number>\d{1,3}(?:\.\d{1,4})?)[ ]?deg(?:rees?)?\b(?![ ]?/)")
+"""Degrees in words that are added: phi = u + 180 deg."""
 _DEGREES = re.compile(
     r"(?<![\d.,_])(?P<number>\d{1,6}(?:[.,]\d{1,6})?)(?:\\[,;! ]|[ ]){0,3}"
     r"(?:\^\s?(?:\{\s?\\circ\s?\}|\\circ(?![A-Za-z]))|\\degree(?![A-Za-z])|°)"
@@ -228,12 +230,14 @@ def _in_latex(said: TracedText) -> TracedText:
 
 
 def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
-    """The answer with deviations from rest stated by themselves, and with names for primes of constants."""
+    """The answer with deviations from rest stated by themselves, degrees that are added as parts of π, and names for
+    primes of constants."""
     model = lines.model
     inputs, moving, fixed = (
         {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
     )
     apart = with_deviations(written, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    apart = apart.sub(_ADDED_DEGREES, lambda m: f"{m['sign']} ({m['number']}*pi/180)")
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 
 
