@@ -50,7 +50,7 @@ from lagrangian.check.readings_compared import (
     wrong_together,
 )
 from lagrangian.check.reasons_unread import without_unread_reasons
-from lagrangian.check.reference import truth_of
+from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
@@ -225,14 +225,14 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     verdict = with_other_components(
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
-    told = _claims_checked(told_truly(with_same_residuals(truth_of(derivation), verdict)))
+    told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
     verdict = _apart(derivation, answer, fitting(told))
     return _told(verdict, answer, decides.notes)
 
 
-def _claims_checked(verdict: check.Verdict) -> check.Verdict:
+def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    return with_uncovered_terms(with_claims_checked(with_written_deflections(verdict)))
+    return with_uncovered_terms(truth, with_claims_checked(with_written_deflections(verdict)))
 
 
 def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:

@@ -28,6 +28,9 @@ from lagrangian.page.formula import Name, Total, text
 Way: TypeAlias = Callable[[Reference, Finding, Sequence[AnsweredLine]], bool]
 STEP = 5
 """The step of the derivatives."""
+WHY_SECOND = text(
+    "An acceleration is d/dt of a velocity: differentiate each factor in turn, and mind the sign that each brings."
+)
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
 
@@ -70,7 +73,7 @@ def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
     first, *others = said.parts
     words = str(first)
     what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
-    why = product_rule.WHY if written == 0 else WHY
+    why = product_rule.WHY if written == 0 else WHY_SECOND if _is_acceleration(line) else WHY
     return Mistake(name, what, why, STEP, None, None, text("A term of ", title, " is not right."))
 
 
