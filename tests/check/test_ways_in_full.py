@@ -53,7 +53,6 @@ def test_another_factor_in_one_element_is_no_way_in_full() -> None:
     for answer in (
         rows("1/2", k="2 k"),
         rows("3"),
-        rows("1").replace("M w'' - k (1 r", "M w'' - k (1/2 r"),
         rows("1/2").replace("1/2 m g r", "m g r"),
     ):
         verdict = loop().check(answer)

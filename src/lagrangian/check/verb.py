@@ -20,6 +20,7 @@ from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
+from lagrangian.check.explain.bare_forms import without_bare_forms
 from lagrangian.check.explain.claims_checked import with_claims_checked
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.deflections_written import with_written_deflections
@@ -232,7 +233,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    return with_uncovered_terms(truth, with_claims_checked(with_written_deflections(verdict)))
+    checked = with_claims_checked(with_written_deflections(verdict))
+    return without_bare_forms(truth, with_uncovered_terms(truth, checked))
 
 
 def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:

@@ -40,7 +40,7 @@ FORCES = 6
 """The step of the generalized forces."""
 STEP_OF = {"T": 2, "V": 3}
 """The steps of the energies of which L is made."""
-RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
+RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten", "velocity_terms_forgotten")
 """What a missing or wrong term of a derivative would also be called."""
 OF_A_PART = ("left_out", "wrong_number", "wrong_sign")
 """What is wrong in a part of a derivative; no reason for the term of which it is told."""
