@@ -121,7 +121,7 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     rated = {name for line in lines for name in _rated_in(line)}
     plain = {name for line in wrong for name in _unrated_in(line)}  # y_B'' = … is no reason to write y_B for −l cos φ
     alone = {name for line in wrong for name in _rated_in(line)} - plain
-    named_so = [x for x in named if x.given or x.key not in alone]
+    named_so = [x for x in named if x.given or x.key not in alone or x.value.has(sp.Derivative)]
     every = [*named_so, *(y for x in named if x.given or x.key in rated for y in _rates(x))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
 
