@@ -5,13 +5,18 @@ Oracle: the answers, whose mistakes are made here one by one beside right ones.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
+from lagrangian.check.explain.certain_first import with_certain_terms
 from lagrangian.check.verb import CheckedAnswer, check_answer
+from lagrangian.check.verdict import Mistake
 from lagrangian.derive import Derived
+from lagrangian.page.formula import text
 from lagrangian.read import loads
 from lagrangian.structured.choose import derive_in_form
 
@@ -212,3 +217,32 @@ def test_an_answer_of_energies_and_forces_says_which_energy_it_has_not() -> None
     for V, silent in (("V = 1/2 K x^2 + 1/2 k h^2", False), ("V1 = 1/2 K x^2", True), ("", True)):
         notes = [str(x) for x in told(f"{T}\n{V}\n{Xi}", SLIDE).notes]
         assert any(x.startswith("No line states V") for x in notes) == silent, notes
+
+
+@cache
+def table() -> lg.Derivation:
+    """A wheel in a vertical plane with a mass at its rim and a second one on a spoke, held by a spring."""
+    s = lg.System("wheel with two masses")
+    r, phi = s.coordinates("r phi")
+    m, M, J, R, k, h, g = s.parameters("m M J R k h g")
+    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="wheel"), name="wheel")
+    s.particle(M, at=s.point("A", (R * sp.cos(phi), R * sp.sin(phi))), name="rim")
+    s.particle(m, at=s.point("B", (r * sp.cos(phi), r * sp.sin(phi))), name="bead")
+    s.gravity(direction=(-1, 0), g=g)
+    s.spring(k, deflection=r, rest=h, name="spring")
+    return s.derive()
+
+
+WHEEL = """m (r'' - r phi'^2) = -k (r - h) - m g cos(phi)
+(J + M R^2 + m r^2) phi''{coriolis} - M g R {arm}(phi) - m g r sin(phi) = 0"""
+TURNED = Mistake("segment_direction", text("In the position of particle 'rim', R is turned."), text(""), 2)
+
+
+@pytest.mark.parametrize("coriolis", [" + 2 m r r' phi'", ""])
+def test_the_terms_of_two_elements_are_told_in_place_of_a_position_that_is_written_nowhere(coriolis: str) -> None:
+    """The arm of a weight with the cosine for the sine: its inertia is right, and so is its position."""
+    assert table().check(WHEEL.format(coriolis=" + 2 m r r' phi'", arm="sin")).right
+    verdict = table().check(WHEEL.format(coriolis=coriolis, arm="cos"))
+    told = [str(m.what) for m in with_certain_terms(replace(verdict, mistakes=(TURNED,))).mistakes]
+    assert told[0] == "In line 2, -M*R*g*cos(phi) should be -M*R*g*sin(phi)."
+    assert told[1:] == ([] if coriolis else ["In line 2, the term 2*m*r*phi'*r' is missing."])

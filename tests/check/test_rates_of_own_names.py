@@ -55,9 +55,10 @@ def test_a_squared_speed_is_no_equation_of_motion(stated: str) -> None:
     verdict, lines = wrong(cart(), answer)
     root = 3 if stated else 2
     assert lines == (
-        {3: False, 4: False, 6: True, 7: True} if stated else {2: False, 3: True, 4: True, 6: True, 7: True}
+        {3: False, 4: True, 6: True, 7: True} if stated else {2: False, 3: True, 4: True, 6: True, 7: True}
     )
-    assert not next(f for f in verdict.findings if f.line.number == 3).differences
+    told = [d for f in verdict.findings if f.line.number == 3 for d in f.differences]
+    assert not any(d.origins for d in told) and len(told) == bool(stated)
     said = " ".join(str(verdict).split())
     assert f"Look at line {root}: that is the first that is not right." in said
     assert "spring" not in said and "gravity" not in said
@@ -136,3 +137,52 @@ def test_a_dissipation_with_the_square_of_a_wrong_rate_follows() -> None:
 def test_a_slope_with_a_prime_lacks_no_rate() -> None:
     answer = ROD.replace("I' = 2 m r r'", "I' = 2 m r, its derivative by r")
     assert "the factor r' is missing" not in " ".join(str(rod().check(answer)).split())
+
+
+SQUARE, HALF = "x_B'^2 + y_B'^2 = x'^2 + 2 l x'", "m (x'^2 + 2 l x'"
+
+
+def test_an_energy_follows_from_a_wrong_square_of_a_speed() -> None:
+    """The term is told on the side and with the factor that stand in that line, and not as a term of T*."""
+    answer = CART.replace(SQUARE, SQUARE.replace("2 l", "l")).replace(HALF, HALF.replace("2 l", "l"))
+    verdict, lines = wrong(cart(), answer)
+    assert lines == {3: False, 4: True}
+    [mistake] = verdict.mistakes
+    assert str(mistake.what) == "In line 3, on the right-hand side, l*cos(phi)*phi'*x' should be 2*l*cos(phi)*phi'*x'."
+    assert mistake.step == 2
+
+
+@pytest.mark.parametrize("energy", ["m (x'^2 + 2 l phi'", "(M + m) (x'^2 + l x'"])
+def test_an_energy_with_another_term_does_not_follow(energy: str) -> None:
+    answer = CART.replace(SQUARE, SQUARE.replace("2 l", "l")).replace(HALF, energy)
+    _, lines = wrong(cart(), answer)
+    assert lines == {3: False, 4: False}
+
+
+def test_a_term_of_an_energy_is_not_told_of_another_line() -> None:
+    """Beside a wrong line that is no equation of a coordinate, a wrong term of T* keeps its own factor."""
+    answer = CART.replace("1/2 M x'^2", "M x'^2").replace(SQUARE, SQUARE.replace("2 l", "4 l^2"))
+    verdict, lines = wrong(cart(), answer)
+    assert lines == {3: False, 4: False}
+    assert not any("line 3" in str(m.what) and "M" in str(m.what) for m in verdict.mistakes)
+
+
+ACCELERATED = """x_B = x + l sin(phi)
+y_B = -l cos(phi)
+x_B'' = x'' + l cos(phi) phi'' - l sin(phi) phi'^2
+y_B'' = l sin(phi) phi'' + l cos(phi) phi'^2
+(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) + k x = 0
+m l^2 phi'' + m l x'' cos(phi) + m g l sin(phi) = 0"""
+
+
+def test_a_term_of_a_second_rate_is_told_as_such_and_the_balance_follows() -> None:
+    """What the acceleration has too much, times m l sin φ, is what the moment has too much."""
+    answer = ACCELERATED.replace("+ l cos(phi) phi'^2", "- l cos(phi) phi'^2")
+    assert cart().check(ACCELERATED).right
+    row = "m l x'' cos(phi) - 2 m l^2 sin(phi) cos(phi) phi'^2"
+    verdict, lines = wrong(cart(), answer.replace("m l x'' cos(phi)", row))
+    assert lines == {4: False, 6: True}
+    [mistake] = verdict.mistakes
+    assert str(mistake.what) == "In line 4, the term -l*cos(phi)*phi'^2 has the wrong sign."
+    _, lines = wrong(cart(), answer.replace("m l x'' cos(phi)", f"{row} + k l"))
+    assert lines == {4: False, 6: False}

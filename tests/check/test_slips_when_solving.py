@@ -114,3 +114,70 @@ def test_a_slip_in_a_bracket_that_was_put_in_is_told_by_its_term() -> None:
     assert str(mistake.what).startswith("In what is solved for x'' alone: the term ") and "wrong sign" in str(
         mistake.what
     )
+
+
+BELOW = """(m l^2 + M l^2 sin(phi)^2) phi'' + M l^2 sin(phi) cos(phi) phi'^2 + c phi' = tau
+phi'' = 1/({below}) (tau - c phi' - M l^2 sin(phi) cos(phi) phi'^2)"""
+
+
+@pytest.mark.parametrize(
+    ("below", "told"),
+    [
+        ("m l^2", "the term M*l^2*sin(phi)^2 is missing"),
+        ("m l^2 + M l^2 sin(phi)", "M*l^2*sin(phi) should be M*l^2*sin(phi)^2"),
+        ("m l^2 - M l^2 sin(phi)^2", "wrong sign"),
+    ],
+)
+def test_a_wrong_term_of_the_denominator_of_one_coordinate_is_told_there(below: str, told: str) -> None:
+    assert yoke().check(BELOW.format(below="m l^2 + M l^2 sin(phi)^2")).right
+    [mistake] = yoke().check(BELOW.format(below=below)).mistakes
+    assert "enominator" in str(mistake.what) and told in str(mistake.what), str(mistake.what)
+
+
+def test_a_wrong_numerator_is_not_told_as_a_denominator() -> None:
+    answer = BELOW.format(below="m l^2").replace("(tau - c", "(tau + c")
+    assert not any("denominator is not" in str(m.what) for m in yoke().check(answer).mistakes)
+
+
+@cache
+def planet() -> Derivation:
+    """A bead on a planet in a ring: l and n are short for R − r and l/r."""
+    sys = System("planet")
+    phi = sys.coordinates("phi")
+    R, r, M, m, d, k, c, g = sys.parameters("R r M m d k c g")
+    length = sys.define("l", R - r)
+    n = sys.define("n", length / r)
+    x = (length * sin(phi) - d * sin(n * phi), -length * cos(phi) - d * cos(n * phi))
+    sys.particle(M, at=sys.point("P", (length * sin(phi), -length * cos(phi))), name="planet")
+    sys.particle(m, at=sys.point("B", x), name="bead")
+    sys.spring(k, deflection=phi)
+    sys.gravity((0, -1), g)
+    sys.damper(c, deflection=phi, name="bearing")
+    sys.torque(sys.inputs("tau"), on=phi, name="crank")
+    return sys.derive()
+
+
+PLANET = """I = M l^2 + m (l^2 + n^2 d^2 - 2 n l d cos((n+1) phi))
+I phi'' + m n (n+1) l d sin((n+1) phi) phi'^2 + (M + m) g l sin(phi) + m g n d sin(n phi) + k phi + c phi' = tau
+phi'' = (tau - c phi' - k phi {sign} m n (n+1) l d sin((n+1) phi) phi'^2 - (M+m) g l sin(phi) - m g n d sin(n phi))/I"""
+
+
+def test_a_sign_in_a_numerator_is_told_where_shorthands_are_sums() -> None:
+    assert planet().check(PLANET.format(sign="-")).right
+    [mistake] = planet().check(PLANET.format(sign="+")).mistakes
+    assert str(mistake.what).startswith("In the numerator of phi''") and "wrong sign" in str(mistake.what)
+
+
+SLOPE = """T = 1/2 M l^2 phi'^2 + 1/2 m (l^2 + n^2 d^2 - 2 n l d cos((n+1) phi)) phi'^2
+V = -(M + m) g l cos(phi) - m g d cos(n phi) + 1/2 k phi^2
+∂T/∂phi = m n {factor} l d sin((n+1) phi) phi'^2
+Xi = tau - c phi'"""
+
+
+def test_a_factor_of_an_own_derivative_is_told_where_shorthands_are_sums() -> None:
+    right = planet().check(SLOPE.format(factor="(n+1)"))
+    assert not any(f.status.value == "wrong" for f in right.findings)
+    [mistake] = planet().check(SLOPE.format(factor="")).mistakes
+    assert str(mistake.what).startswith("In ∂T*/∂phi") and "n + 1" in str(mistake.what)
+    assert "inner derivative" in str(mistake.why)
+    assert not any("belongs" in str(m.what) for m in planet().check(SLOPE.format(factor="sin(phi)")).mistakes)

@@ -66,3 +66,78 @@ def test_what_follows_from_a_wrong_velocity_is_not_told_as_its_own() -> None:
 def test_a_single_mistake_stays_alone() -> None:
     assert len(told(beater().check(answer(arm="")))) == 1
     assert len(told(beater().check(answer(force="u")))) == 1
+
+
+@cache
+def hoist() -> lg.Derivation:
+    """A drum with a motor and a bearing, a block on its rope, and a load that hangs from it on a spring."""
+    s = lg.System("hoist")
+    phi, y = s.coordinates("phi y")
+    J, m, M, r, g, k, b = s.parameters("J m M r g k b")
+    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("Y", (0, -y)), name="load")
+    s.gravity(direction=(0, -1), g=g)
+    s.particle(M, at=s.point("B", (0, r * phi)), name="block")
+    s.spring(k, deflection=y - r * phi, name="sling")
+    s.damper(b, deflection=phi, name="bearing")
+    s.torque(s.input("u"), on=phi, name="motor")
+    return s.derive()
+
+
+BALANCES = """F = k (y {sign} r phi)
+m y'' = m g - F
+M r phi'' = S - M g
+J phi'' = u + F r - S r{damper}
+(J + M r^2) phi'' = u - M g r + k r (y {sign} r phi){damper}"""
+
+
+def balances(sign: str = "-", damper: str = " - b phi'") -> str:
+    return BALANCES.format(sign=sign, damper=damper)
+
+
+def test_an_element_of_which_an_equation_has_nothing_is_told_beside_a_wrong_force() -> None:
+    assert hoist().check(balances()).right
+    force, damper = told(hoist().check(balances(sign="+", damper="")))
+    assert force.startswith("Line 1 is not right") and ("bearing" in damper or "b*phi'" in damper)
+
+
+def test_an_element_of_which_something_is_there_or_that_is_told_is_not_told_again() -> None:
+    assert len(told(hoist().check(balances(sign="+")))) == 1
+    assert len(told(hoist().check(balances(damper="")))) == 1
+    assert not any("missing" in x for x in told(hoist().check(balances(sign="+", damper=" + b phi'"))))
+
+
+@cache
+def press() -> lg.Derivation:
+    """A lever with a torsion spring whose pin at a lifts a plate."""
+    s = lg.System("press")
+    theta = s.coordinate("theta")
+    M, J, a, g, k, q = s.parameters("M J a g k q")
+    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(theta, name="lever"), name="lever")
+    s.particle(M, at=s.point("Y", (0, a * sp.sin(theta))), name="plate")
+    s.gravity(direction=(0, -1), g=g)
+    s.spring(k, deflection=theta - q, name="torsion spring")
+    return s.derive()
+
+
+PLATE = """y = a sin(theta)
+y'' = a cos(theta) theta'' {sign} a sin(theta) theta'^2
+M y'' = S - M g
+J theta'' = -S a cos(theta){spring}
+(J + M a^2 cos(theta)^2) theta'' {sign} M a^2 sin(theta) cos(theta) theta'^2 + M g a cos(theta){left} = 0"""
+
+
+def plate(sign: str = "-", spring: str = " - k (theta - q)", left: str = " + k (theta - q)") -> str:
+    return PLATE.format(sign=sign, spring=spring, left=left)
+
+
+def test_a_wrong_second_rate_is_told_before_a_wrong_balance_below_it() -> None:
+    assert press().check(plate()).right
+    rate, spring = told(press().check(plate(sign="+", spring="", left="")))
+    assert rate == "In line 2, the term a*sin(theta)*theta'^2 has the wrong sign."
+    assert spring.startswith("In line 4") and "torsion spring" in spring
+
+
+def test_a_wrong_rate_and_a_wrong_balance_alone_are_told_alone() -> None:
+    for answer in (plate(sign="+"), plate(spring="", left="")):
+        assert len(told(press().check(answer))) == 1

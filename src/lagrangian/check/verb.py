@@ -20,6 +20,7 @@ from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
+from lagrangian.check.explain.bare_forms import without_bare_forms
 from lagrangian.check.explain.claims_checked import with_claims_checked
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.deflections_written import with_written_deflections
@@ -50,7 +51,7 @@ from lagrangian.check.readings_compared import (
     wrong_together,
 )
 from lagrangian.check.reasons_unread import without_unread_reasons
-from lagrangian.check.reference import truth_of
+from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
@@ -225,14 +226,15 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     verdict = with_other_components(
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
-    told = _claims_checked(told_truly(with_same_residuals(truth_of(derivation), verdict)))
+    told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
     verdict = _apart(derivation, answer, fitting(told))
     return _told(verdict, answer, decides.notes)
 
 
-def _claims_checked(verdict: check.Verdict) -> check.Verdict:
+def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    return with_uncovered_terms(with_claims_checked(with_written_deflections(verdict)))
+    checked = with_claims_checked(with_written_deflections(verdict))
+    return without_bare_forms(truth, with_uncovered_terms(truth, checked))
 
 
 def _apart(derivation: Derived, answer: Answer, verdict: check.Verdict) -> check.Verdict:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, cast
+from functools import partial
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -13,6 +14,7 @@ from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.explain.at_places import changes, proportional_at_places
 from lagrangian.check.explain.derivative_lines import LONGEST, WHY, product_rule, replaced
+from lagrangian.check.explain.energy_theorem import is_energy_theorem
 from lagrangian.check.explain.free_bodies import proportional
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.explain.said_wrongly import said_of_rate
@@ -23,8 +25,12 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import Name, Total, text
 
+Way: TypeAlias = Callable[[Reference, Finding, Sequence[AnsweredLine]], bool]
 STEP = 5
 """The step of the derivatives."""
+WHY_SECOND = text(
+    "An acceleration is d/dt of a velocity: differentiate each factor in turn, and mind the sign that each brings."
+)
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
 
@@ -44,6 +50,12 @@ def _is_rate(line: AnsweredLine) -> bool:
     )
 
 
+def _is_acceleration(line: AnsweredLine) -> bool:
+    """Whether a line says what the second rate of a name is, y'' = …, and not its first."""
+    first = line.sides[0] if line.sides is not None else sp.S.Zero
+    return (line.name or "").endswith("''") or any(d.derivative_count > 1 for d in first.atoms(sp.Derivative))  # type: ignore[attr-defined]
+
+
 def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
     """The one term of such a rate that is wrong; None if it is more."""
     if not _is_own_rate(truth, line) or line.sides is None or line.name is None:
@@ -56,26 +68,36 @@ def slip_in_own_rate(truth: Reference, line: AnsweredLine) -> Mistake | None:
     if pair is None:
         return None
     written, meant = (cast("sp.Expr", sp.factor_terms(x)) for x in pair)
-    title = Total(Name(line.name))
+    title = line.title if _is_acceleration(line) else Total(Name(line.name))
     name, said = term_replaced(written, meant)
     first, *others = said.parts
     words = str(first)
     what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
-    why = product_rule.WHY if written == 0 else WHY
+    why = product_rule.WHY if written == 0 else WHY_SECOND if _is_acceleration(line) else WHY
     return Mistake(name, what, why, STEP, None, None, text("A term of ", title, " is not right."))
 
 
 def follow_from_own_rates(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with those marked that hold with wrong rates that the answer states above, or that have what these
     have too much, times a rate."""
-    roots = [f for f in findings if f.status is Status.WRONG and not f.follows and _is_rate(f.line)]
+    for is_root, ways in ((_is_rate, _WAYS), (partial(_is_square, truth), (_has_excess_of_squares,))):
+        findings = _following(truth, findings, is_root, ways)
+    return list(findings)
+
+
+def _following(
+    truth: Reference, findings: Sequence[Finding], is_root: Callable[[AnsweredLine], bool], ways: Sequence[Way]
+) -> Sequence[Finding]:
+    """The findings, with those marked that follow in one of some ways from wrong lines above them."""
+    is_open = [f for f in findings if f.status is Status.WRONG and not f.follows]
+    roots = [f for f in is_open if is_root(f.line)]
     if not roots:
-        return list(findings)
+        return findings
     found: list[Finding] = []
     for f in findings:
         above = [x.line for x in roots if x.line.number <= f.line.number and x is not f]
-        is_open = f.status is Status.WRONG and not f.follows and not any(f is x for x in roots)
-        follows = is_open and bool(above) and any(x(truth, f, above) for x in _WAYS)
+        sought = any(f is x for x in is_open) and not any(f is x for x in roots)
+        follows = sought and bool(above) and any(x(truth, f, above) for x in ways)
         found.append(replace(f, follows=True, differences=()) if follows else f)
     return found
 
@@ -106,7 +128,7 @@ def _has_its_excess(truth: Reference, finding: Finding, said: Sequence[AnsweredL
 
 def _has_its_acceleration(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
     """Whether an equation is wrong by what an acceleration has too much, times something without rates: m r sin φ."""
-    line, wrong = finding.line, [x for x in said if (x.name or "").endswith("''")]
+    line, wrong = finding.line, [x for x in said if _is_acceleration(x)]
     if line.kind != "equation" or not wrong:
         return False
     own, *extra = CompiledExpressions([line.expr, *(x.expr for x in wrong)]).at(truth.states)
@@ -125,6 +147,24 @@ def _has_its_square(truth: Reference, finding: Finding, said: Sequence[AnsweredL
         return False
     pairs = [tuple(cast("sp.Expr", truth.expand(y)) for y in x.sides) for x in said if x.sides is not None]
     values = CompiledExpressions([line.expr - right, *(b**2 - a**2 for a, b in pairs)]).at(truth.states)
+    return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
+
+
+def _is_square(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether an equation may say what the square of a speed is: it has rates, and no acceleration and no input."""
+    held = [*(c.acceleration for c in truth.model.coordinates), *(u.symbol for u in truth.model.inputs)]
+    if line.kind != "equation" or line.sides is None or line.expr.has(*held):
+        return False
+    return all(x.has(sp.Derivative) for x in line.sides) and not is_energy_theorem(truth, line.expr)
+
+
+def _has_excess_of_squares(truth: Reference, finding: Finding, said: Sequence[AnsweredLine]) -> bool:
+    """Whether T* or L is wrong by a constant times what the square of a speed has too much: ẏ² = ż² + 2 L ż θ̇ cos θ."""
+    line = finding.line
+    right = right_value(truth, line, None) if line.kind in ("T", "L") else None
+    if right is None:
+        return False
+    values = CompiledExpressions([line.expr - right, *(x.expr for x in said)]).at(truth.states)
     return bool(np.isfinite(values).all()) and any(proportional(values[0], x) for x in values[1:])
 
 

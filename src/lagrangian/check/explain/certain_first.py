@@ -6,7 +6,7 @@ M12 = (J/ρ² + m) r²/4                    ¼ m r² has the wrong sign; that a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -14,12 +14,14 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.second_choices import MADE_IN
 from lagrangian.check.explain.term_said import REASON, with_reason
-from lagrangian.check.explain.terms_alone import term_mistake
+from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 
 ENERGIES = ("T", "V", "L")
 """The kinds of lines that are energies."""
+OF_ENERGY = 3
+"""The step of weights and springs."""
 MISSING = " is missing"
 MOST = 200
 """The most terms of a line, as they are written, that are compared."""
@@ -93,17 +95,28 @@ def _too_much(mistake: Mistake, changed: list[tuple[Finding, TermDifference, Ter
 
 
 def _with_one_term(verdict: Verdict) -> Verdict:
-    """The verdict with the one term that is wrong first, where a velocity, height or position of which nothing is
-    written is all that is told."""
+    """The verdict with the one term that is wrong first, or with two of different elements, where a velocity, height or
+    position of which nothing is written is all that is told."""
     if len(verdict.mistakes) != 1 or any(f.line.kind in ENERGIES for f in verdict.findings):
         return verdict
     (mistake,) = verdict.mistakes
-    if MADE_IN.match(str(mistake.what)) is None or REASON in str(mistake.what):
+    made = MADE_IN.match(str(mistake.what))
+    if made is None or REASON in str(mistake.what):
         return verdict
-    roots = open_findings(verdict)
+    roots = [f for f in open_findings(verdict) if f.differences or not f.clash]
     terms = {(f.line.number, d.kind, d.term, d.written): (f, d) for f in roots for d in f.differences}
-    if len(terms) != 1 or not all(f.differences for f in roots):
+    if not all(f.differences for f in roots) or not 0 < len(terms) <= MOST_TOLD:
         return verdict
-    [(finding, difference)] = terms.values()
-    told = with_reason(term_mistake(finding, difference).what, mistake)
-    return replace(verdict, mistakes=(told,))
+    told = [term_mistake(f, d) for f, d in terms.values()]
+    if len(told) > 1:
+        return replace(verdict, mistakes=tuple(told)) if _are_of_others([d for _, d in terms.values()]) else verdict
+    [(_, difference)] = terms.values()
+    if made["what"] == "position" and {o.step for o in difference.origins} == {OF_ENERGY}:
+        return replace(verdict, mistakes=tuple(told))  # what it adds to the inertia is right
+    return replace(verdict, mistakes=(with_reason(told[0].what, mistake),))
+
+
+def _are_of_others(differences: Sequence[TermDifference]) -> bool:
+    """Whether no two terms have an origin in common: one motion is not the reason for all of them."""
+    own = [{o.element for o in d.origins} for d in differences]
+    return all(own) and sum(map(len, own)) == len(set[str]().union(*own))

@@ -17,12 +17,15 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.without_energies import WHOLE
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
 from lagrangian.records import dataclass
 
 Parts: TypeAlias = "Sequence[str | Verbatim | Left]"
+NO_GRAVITY, NONE = "gravity_forgotten", "Gravity is missing"
+"""The name of what is said of missing weights, and how it begins where all are."""
 MOST_TERMS = 200
 """The most terms of a line that are searched."""
 MOST_LISTED = 3
@@ -51,7 +54,11 @@ def with_claims_checked(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with mistakes that say no more than what its lines show."""
     if verdict.status is not Status.WRONG or verdict.hint == 0:
         return verdict
-    mistakes = tuple(_checked(_without_untrue_reason(m, verdict), verdict) for m in verdict.mistakes)
+    mistakes = tuple(
+        _checked(_without_untrue_reason(m, verdict), verdict)
+        for m in verdict.mistakes
+        if not (m.name == NO_GRAVITY and str(m.what).startswith(NONE) and _one_weight_lacks(verdict.mistakes, m))
+    )
     others = tuple(m for m in verdict.alternatives if _checked(m, verdict) is m and not _is_idle(m, verdict))
     return replace(verdict, mistakes=mistakes, alternatives=others)
 
@@ -80,6 +87,8 @@ def _is_idle(mistake: Mistake, verdict: Verdict) -> bool:
     if any(isinstance(x, str) and x.endswith(" is counted in ") for x in parts) and "V" in map(str, parts):
         stated = [f for f in verdict.findings if f.line.kind == "V"]
         return bool(stated) and all(f.status.right for f in stated)
+    if str(parts[0]).startswith(f"In {WHOLE['V']}") and len(_elements(verdict)) == 1:
+        return True  # of several, where one differs
     formulas = {x for x in parts if isinstance(x, sp.Expr)}
     coordinates = {x for x in formulas if isinstance(x, AppliedUndef)}
     return any(
@@ -89,6 +98,16 @@ def _is_idle(mistake: Mistake, verdict: Verdict) -> bool:
         and formulas - coordinates == {x for x in m.what.parts if isinstance(x, sp.Expr)} - coordinates
         for m in verdict.mistakes
     )
+
+
+def _one_weight_lacks(mistakes: Sequence[Mistake], whole: Mistake) -> bool:
+    """Whether another mistake says that one weight is missing: then the others are there."""
+    return any(m is not whole and m.name == NO_GRAVITY and m.element == whole.element for m in mistakes)
+
+
+def _elements(verdict: Verdict) -> set[str]:
+    """The elements of which terms differ in lines that follow from none."""
+    return {o.element for f in open_findings(verdict) for d in f.differences for o in d.origins}
 
 
 def _claim(parts: Parts) -> _MissingTerms | None:

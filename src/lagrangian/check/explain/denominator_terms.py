@@ -32,6 +32,8 @@ def wrong_term_below(truth: Reference, expr: sp.Expr, i: int, ratio: Array) -> t
     """
     bases = {f.base for f in expr.atoms(sp.Pow) if f.exp == -1 and f.base.is_Add}
     whole = [b for b in bases if not any(x is not b and x.has(b) for x in bases)]
+    if not bases:
+        whole = list({sp.fraction(x)[1] for x in sp.Add.make_args(expr)} - {sp.S.One})
     if len(whole) != 1:
         return None
     below = cast("sp.Expr", bounded.expand(truth.expand(whole[0])))

@@ -20,8 +20,9 @@ from lagrangian.check.explain.own_terms import WHY, term_replaced
 from lagrangian.check.explain.spoken import in_dissipation, in_lagrangian
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, AnsweredLine, Finding, Mistake, Status
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Text, Total, text
 
@@ -39,7 +40,7 @@ FORCES = 6
 """The step of the generalized forces."""
 STEP_OF = {"T": 2, "V": 3}
 """The steps of the energies of which L is made."""
-RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
+RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten", "velocity_terms_forgotten")
 """What a missing or wrong term of a derivative would also be called."""
 OF_A_PART = ("left_out", "wrong_number", "wrong_sign")
 """What is wrong in a part of a derivative; no reason for the term of which it is told."""
@@ -176,7 +177,7 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
         return None
     above = given(truth, [x for x in lines if x.number <= line.number])
     T = above.T if above.T is not None else truth.T
-    pair = replaced(rest, right)
+    pair = replaced(rest, right) or _of_sides(truth, line, own)
     if pair is None:
         return factor_held(title, bounded.diff(T, truth.model.coordinates[i].rate), more, truth.model.coordinates, i)
     sums = sorted(T.atoms(sp.Add), key=bounded.operations)
@@ -187,6 +188,22 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     brief = text("A term of ", title, " is not right.")
     what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
     return Mistake(name, what, _why(title, *pair), 5, None, truth.model.coordinates[i].name, brief)
+
+
+def _of_sides(truth: Reference, line: AnsweredLine, own: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """The one term that was written and the one that belongs there, as both are read: m n d sin((n + 1) φ) for that
+    times n + 1, where l = R − r and n = l/r make several terms of each; None if the sides differ in more."""
+    if line.kind not in OWN_DERIVATIVES or line.sides is None:
+        return None
+    if not zero_everywhere(truth, truth.expand(line.sides[0]) - own):
+        return None
+    right, written = (sp.Add.make_args(x) for x in line.sides)
+    pair = [x for x in written if x not in right], [x for x in right if x not in written]
+    if not all(len(x) == 1 and not x[0].is_Add for x in pair):
+        return None
+    quotient = bounded.cancel(cast("sp.Expr", pair[0][0] / pair[1][0]))
+    constant = not quotient.has(sp.Function, sp.Derivative) and bounded.operations(quotient) <= LONGEST
+    return (cast("sp.Expr", pair[0][0]), cast("sp.Expr", pair[1][0])) if constant else None
 
 
 def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
@@ -206,11 +223,17 @@ def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
     rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
     if quotient == -1 and (not total or any(x != 0 and right.has(x) for x in rates.values())):
         return WHY_FUNCTION
-    for f, inner in rates.items() if total else ():
+    for f in functions:
+        inner = rates[f] if total else bounded.diff(cast("sp.Expr", f.args[0]), _by(title))
         if inner not in (0, 1) and bounded.expand(quotient - inner) == 0:
             angle = cast("sp.Expr", f.args[0])
             return text("The chain rule: sine and cosine of ", angle, " have the inner derivative ", inner, ".")
     return WHY
+
+
+def _by(title: Left) -> sp.Expr:
+    """The coordinate by which a derivative is taken; time for a total one."""
+    return cast("sp.Expr", title.by) if isinstance(title, Partial) and isinstance(title.by, sp.Expr) else time
 
 
 def _inside(title: Left, written: sp.Expr, missing: sp.Expr) -> sp.Expr | None:

@@ -119,7 +119,10 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
         if not _has_unknown(x.value, [y.as_base_exp()[0] for y in symbols.values()]) and not _is_kinetic(x)
     ]
     rated = {name for line in lines for name in _rated_in(line)}
-    every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
+    plain = {name for line in wrong for name in _unrated_in(line)}  # y_B'' = … is no reason to write y_B for −l cos φ
+    alone = {name for line in wrong for name in _rated_in(line)} - plain
+    named_so = [x for x in named if x.given or x.key not in alone or x.value.has(sp.Derivative)]
+    every = [*named_so, *(y for x in named if x.given or x.key in rated for y in _rates(x))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
 
 
@@ -160,13 +163,25 @@ def names_in(line: AnsweredLine) -> frozenset[str]:
 
 def _rated_in(line: AnsweredLine) -> Iterator[str]:
     """The keys of the names whose rate is written in a line, with a dot, a prime or ``dot``."""
+    return (name for name, is_rate in _words_in(line) if is_rate)
+
+
+def _unrated_in(line: AnsweredLine) -> Iterator[str]:
+    """The keys of the names that are written in a line themselves."""
+    return (name for name, is_rate in _words_in(line) if not is_rate)
+
+
+def _words_in(line: AnsweredLine) -> Iterator[tuple[str, bool]]:
+    """The keys of the words in a line, each with whether it is the rate of a name."""
     for m in _WORD.finditer(line.text):
         base, dots = undotted(m[0])
         before, after = line.text[max(0, m.start() - 6) : m.start()], line.text[m.end() : m.end() + 4]
         if dots or after.removeprefix("(t)").startswith(_MARKS) or before.rstrip("{\\ ").endswith("dot"):
-            yield key(base)
+            yield key(base), True
         elif base.endswith("dot"):
-            yield key(base.removesuffix("dot").rstrip("_"))
+            yield key(base.removesuffix("dot").rstrip("_")), True
+        else:
+            yield key(base), False
 
 
 def _moves(expr: sp.Expr) -> bool:

@@ -56,7 +56,7 @@ def solved_row(truth: Reference, expr: sp.Expr, *, single: bool = False) -> Solv
     ``single``: or while the right one holds that one alone, times a sum.
     """
     held = [i for i, c in enumerate(truth.model.coordinates) if expr.has(c.acceleration)]
-    if len(held) != 1 or truth.n > MOST_COORDINATES or terms(expr) > LONGEST or foreign_names(truth, expr):
+    if len(held) != 1 or truth.n > MOST_COORDINATES or terms(expr) > 4 * LONGEST or foreign_names(truth, expr):
         return None
     i = held[0]
     acceleration = cast("sp.Expr", truth.model.coordinates[i].acceleration)
@@ -68,6 +68,8 @@ def solved_row(truth: Reference, expr: sp.Expr, *, single: bool = False) -> Solv
         return None
     quotient = -cast("sp.Expr", expr.xreplace({acceleration: sp.S.Zero})) / slope
     above, below = _fraction(quotient)
+    if max(map(terms, (expr, above) if several else (above, below))) > LONGEST:
+        return None
     if not several and (not slope.is_number or not below.has(sp.Add) or len(sp.Add.make_args(quotient)) > 1):
         return None  # no numerator was written, or the equation itself was divided
     written = CompiledExpressions([cast("sp.Expr", above / below)]).at(truth.states)[0]

@@ -13,6 +13,7 @@ from typing import TypeAlias, cast
 
 import sympy as sp
 
+from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.terms.sides import LEFT, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
@@ -33,6 +34,8 @@ def with_sides(verdict: Verdict) -> Verdict:
     roots = [f for f in verdict.findings if f.line.kind == "equation" and f.status is Status.WRONG and not f.follows]
     if not roots:
         return verdict
+    if any(f.line.kind != "equation" for f in open_findings(verdict)):
+        roots = [f for f in roots if f.coordinate is not None]  # a term may stand in an energy and in no equation
     told = tuple(_on_side(m, roots) for m in verdict.mistakes)
     return replace(verdict, mistakes=told, alternatives=tuple(_on_side(m, roots) for m in verdict.alternatives))
 

@@ -12,7 +12,7 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.numerators import own_in_numerator, said_of
 from lagrangian.check.explain.own_terms import own_terms
-from lagrangian.check.explain.solved import denominator
+from lagrangian.check.explain.solved import TERM_NAME, denominator
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
@@ -49,7 +49,7 @@ def of_slip(pool: Pool, line: AnsweredLine) -> list[Mistake]:
         told.append((forgotten.cost, forgotten.mistake(pool.truth)))
     if (own := own_terms(pool, exprs, P, found)) is not None:
         told.append((own[0].cost, own[0].mistake(pool.truth)))
-    if not told and (under := denominator(pool.truth, exprs, P)) is not None:
-        told.append((0.0, under))
+    if (under := denominator(pool.truth, exprs, P)) is not None and (not told or under.name == TERM_NAME):
+        told = [(0.0, under)]  # all that stands above it is right
     told.sort(key=lambda x: x[0])
     return [replace(mistake, why=WHY, step=5) for _, mistake in told[:1]]

@@ -12,6 +12,7 @@ from typing import cast
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.align import CONSTANT, LARGEST, solved
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.denominator_terms import wrong_term_below
@@ -70,9 +71,14 @@ def _solvable(pool: Pool, explanation: Explanation) -> bool:
 
 
 def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake | None:
-    """The mistake if the accelerations are the true ones, times a factor that depends on the place alone."""
+    """The mistake if the accelerations are the true ones, times a factor that depends on the place alone.
+
+    Of a single coordinate only the term of a denominator that is written is told: its equation may have another factor.
+    """
     accelerations = [c.acceleration for c in truth.model.coordinates]
-    if truth.n < 2 or not exprs or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+    if not exprs or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+        return None
+    if truth.n == 1 and (len(exprs) > 1 or not bounded.diff(exprs[0], accelerations[0]).is_number):
         return None
     own = [next(i for i, a in enumerate(accelerations) if e.has(a)) for e in exprs]
     slopes = CompiledExpressions(exprs).slopes(accelerations).at(truth.states)
@@ -91,7 +97,7 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
     wrong = [i for i, r in ratios.items() if np.abs(r - 1).max() > CONSTANT]
     if len(set(own)) < len(exprs) or not wrong:
         return None
-    common = len(wrong) == truth.n and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
+    common = len(wrong) == truth.n > 1 and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
     name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None
     symbols = [x for i in wrong for x in (cast("sp.Expr", accelerations[i]), ", ")][:-1]
     brief = text("A denominator of a solved equation is not right.")
@@ -104,7 +110,7 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
             first, *more = term_replaced(*pair)[1].parts if one else ("", pair[0], " should be ", pair[1], ".")
             words = text(*words.parts[:-1], f"{_DENOMINATOR} In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
             return Mistake(TERM_NAME, words, WHY_BELOW, 5, None, name, brief)
-    return Mistake(NAME, words, WHY, 5, None, name, brief)
+    return None if truth.n == 1 else Mistake(NAME, words, WHY, 5, None, name, brief)
 
 
 def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> Text:

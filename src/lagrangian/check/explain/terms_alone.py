@@ -47,13 +47,23 @@ def _rates(difference: TermDifference) -> list[sp.Derivative]:
     return [x for x in difference.term.atoms(sp.Derivative) if isinstance(x, sp.Derivative)]
 
 
+def _is_of_speeds(finding: Finding) -> bool:
+    """Whether a line is no equation of a coordinate and equates rates, products of them or their squares alone."""
+    line = finding.line
+    if line.kind != "equation" or finding.coordinate is not None or line.sides is None:
+        return False
+    terms = [x for side in line.sides for x in sp.Add.make_args(side)]
+    accelerated = any(d.derivative_count > 1 for d in line.expr.atoms(sp.Derivative) if isinstance(d, sp.Derivative))
+    return not accelerated and all(x.has(sp.Derivative) for x in terms)
+
+
 def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:
     """The mistake that a term which differs is."""
     line = finding.line
     side, d = on_side(line, difference)
     origins = difference.origins
     told = origins and line.kind in ("equation", "definition")
-    step = origins[0].step if told else LINES.get(line.kind, 5)
+    step = origins[0].step if told else 2 if not origins and _is_of_speeds(finding) else LINES.get(line.kind, 5)
     element = origins[0].element if len({o.element for o in origins}) == 1 else None
     where = f"In {line.title}{f', {side}' if side else ''}, "
     brief = text(f"A term in {line.title} is not right{f': one that comes from {element}' if element else ''}.")

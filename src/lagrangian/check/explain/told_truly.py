@@ -90,15 +90,25 @@ def _once(mistakes: Sequence[Mistake], verdict: Verdict) -> Iterator[Mistake]:
         parts = m.what.parts
         pair = next(((a, b) for a, x, b in zip(parts, parts[1:], parts[2:], strict=False) if x == NOT), None)
         said = {str(m.what), pair} - {None}
-        if k and (said & told or _only_follows(m, verdict)):
+        if k and (said & told or _only_follows(m, verdict) or any(_says_again(m, x) for x in mistakes[:k])):
             continue
         told |= said
         yield m
 
 
+def _says_again(mistake: Mistake, said: Mistake) -> bool:
+    """Whether a mistake sets the same sum right as a line above that is not right: y − r φ, not y + r φ."""
+    if not _BLAMES.match(str(said.what)) or mistake.element is None or mistake.element != said.element:
+        return False
+    own, theirs = (
+        {y for x in m.what.parts if isinstance(x, sp.Expr) for y in x.atoms(sp.Add)} for m in (mistake, said)
+    )
+    return len(own) > 1 and all(x in theirs or -x in theirs for x in own)
+
+
 def _only_follows(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether the equation in which a term is said to be wrong needs no correction of its own."""
-    if mistake.coordinate is None or not str(mistake.what).startswith("The term "):
+    if mistake.coordinate is None or not str(mistake.what).startswith(("The term ", "In line ")):
         return False
     wrong = [f for f in verdict.findings if f.coordinate == mistake.coordinate and f.status is Status.WRONG]
     return bool(wrong) and all(f.follows for f in wrong)

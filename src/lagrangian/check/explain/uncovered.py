@@ -1,27 +1,41 @@
-"""The one term of a derivative that no mistake speaks of: it is a mistake of its own.
+"""The one term that no mistake speaks of: it is a mistake of its own.
 
 V = −m g l cos θ + ½ k (e + a θ)²           the sign of the weight is wrong, and told
 ∂L/∂θ = −m g l sin θ − k (e + a θ)          that the factor a is lost belongs to no weight: it is told, too
+
+J φ̈ = τ + F R − S r                         where S has a wrong sign, that b φ̇ is missing is told as well
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
+from lagrangian.check.explain.after_own_rates import slip_in_own_rate
+from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.terms_alone import LEFT_OVER, MOST_TOLD, term_mistake
 from lagrangian.check.readings_compared import open_findings
+from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, Finding, Mistake, Status, TermDifference, Verdict
 
 KINDS = ("p", *DERIVED)
 """The lines that are compared term by term with what belongs there."""
+_LINE = re.compile(r"\b[Ll]ine (?P<number>\d{1,6})\b")
 BLAMES = "Line "
 """How words begin on a definition, of which more may follow than is found."""
 
 
-def with_uncovered_terms(verdict: Verdict) -> Verdict:
+def with_uncovered_terms(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with the one or two terms of such lines of which no mistake speaks."""
     told = verdict.mistakes
-    if verdict.status is not Status.WRONG or verdict.hint == 0 or not told or any(m.element is None for m in told):
+    if verdict.status is not Status.WRONG or verdict.hint == 0 or not told:
+        return verdict
+    return _with_rates(truth, _with_absent(_with_terms_of_derivatives(verdict)))
+
+
+def _with_terms_of_derivatives(verdict: Verdict) -> Verdict:
+    told = verdict.mistakes
+    if any(m.element is None for m in told):
         return verdict
     blamed = any(str(m.what).startswith(BLAMES) for m in told)
     if blamed or any(str(note).endswith(LEFT_OVER) for note in verdict.notes):
@@ -33,9 +47,45 @@ def with_uncovered_terms(verdict: Verdict) -> Verdict:
     return replace(verdict, mistakes=(*told, *(term_mistake(f, d) for f, d in open_ones)))
 
 
+def _with_absent(verdict: Verdict) -> Verdict:
+    """The verdict with the terms of elements of which no mistake speaks, and of which an equation has nothing at all:
+    a term of one element alone, with a letter that the equation lacks."""
+    told = verdict.mistakes
+    if any(m.element is None for m in told):
+        return verdict
+    found: dict[str, tuple[Finding, TermDifference]] = {}
+    for f in open_findings(verdict):
+        for d in f.differences if f.line.kind == "equation" and f.coordinate is not None else ():
+            own = {o.element for o in d.origins}
+            if d.kind == "missing" and len(own) == 1 and not letters_in(d.term) <= letters_in(f.line.expr):
+                found.setdefault(own.pop(), (f, d))
+    absent = [(f, d) for f, d in found.values() if not any(_is_of(m, d) for m in told)]
+    if not 0 < len(absent) <= MOST_TOLD:
+        return verdict
+    return replace(verdict, mistakes=(*told, *(term_mistake(f, d) for f, d in absent)))
+
+
+def _with_rates(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict with the one term that is wrong in a rate of which no mistake speaks, ÿ = …, before what is told of
+    the lines below it."""
+    told = list(verdict.mistakes)
+    numbers = [int(x["number"]) for m in told if (x := _LINE.search(str(m.what))) is not None]
+    for f in open_findings(verdict):
+        if f.line.kind != "identity" or not numbers or any(f.line.number >= k for k in numbers):
+            continue
+        if len(numbers) == len(told) and (slip := slip_in_own_rate(truth, f.line)) is not None:
+            told.insert(0, slip)
+            break
+    return replace(verdict, mistakes=tuple(told))
+
+
 def _speaks_of(mistake: Mistake, finding: Finding, difference: TermDifference) -> bool:
     """Whether a mistake is in an element from which a term comes, or names the line in which it stands."""
+    here = finding.line.number is not None and f"ine {finding.line.number}" in str(mistake.what)
+    return here or _is_of(mistake, difference)
+
+
+def _is_of(mistake: Mistake, difference: TermDifference) -> bool:
+    """Whether a mistake is in an element from which a term comes."""
     said = str(mistake.what)
-    names = {o.element for o in difference.origins}
-    here = finding.line.number is not None and f"ine {finding.line.number}" in said
-    return here or any(x in said or x in (mistake.element or "") for x in names)
+    return any(o.element in said or o.element in (mistake.element or "") for o in difference.origins)

@@ -63,6 +63,7 @@ from lagrangian.check.explain.misconceptions import (
     torque_on_parent,
     translation_forgotten,
     velocity_terms_forgotten,
+    way_in_full,
     wrong_angle,
     xi_sign,
 )
@@ -127,6 +128,7 @@ MISCONCEPTIONS: tuple[ModuleType, ...] = (
     element_twice,
     wrong_angle,
     inertia_left_out,
+    way_in_full,
 )
 """All misconceptions, the most likely first."""
 
