@@ -42,10 +42,13 @@ _MAX = 100
 
 
 _CALLED = re.compile(
-    rf"(?P<name>{_NAME})(?P<prime>\s?['’′])?\s{{0,3}}"
+    r"(?P<name>(?:(?<=frac\d\d)|(?<=½)|(?<![\w\\])(?!\\[dt]?frac\d))\\?[^\W\d_]\w*(?:\{\w{1,20}\})?)"
+    r"(?P<prime>\s?['’′])?\s{0,3}"
     r"(?:\\left)?\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
 )
 """A name with coordinates or rates in brackets: V(θ), U'(x), T(ẋ), J_P(θ)."""
+_VARIANT = re.compile(r"(?<=\\)var(?=(?:phi|theta|epsilon|rho|sigma|pi)(?![A-Za-z]))")
+"""What begins the command of another form of a Greek letter."""
 _LETTERS_IN = re.compile(r"\\?[^\W\d_⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*+")
 _FUNCTION = re.compile(r"(?:sin|cos|tan)(?=[^\W\d_])")
 _ENERGIES = frozenset(["T", "V", "U", "K", "L", "E"])
@@ -78,18 +81,37 @@ def value_stated(name: str, text: str) -> str | None:
     return None if stated is None else stated["value"]
 
 
+def is_in_chain(name: str, text: str) -> bool:
+    """Whether a name stands as the factor of a square in the last side of a chain: T = ½ […] θ'² = ½ I(θ) θ'²."""
+    for last in islice(re.finditer(_LAST_OF_CHAIN.format(re.escape(name)), text), _MAX):
+        before = text[max(0, last.start() - _LONGEST_SIDE) : last.start()]
+        if "=" in _CHAIN_BEGINS.split(before)[-1]:
+            return True
+    return False
+
+
+_LAST_OF_CHAIN = (
+    r"=[ \t]?:?[ \t&]*+(?:(?:½|\(?1[ ]?/[ ]?2\)?|0\.5|\\[dt]?frac[ ]?\{{?[ ]?1[ ]?\}}?[ ]?\{{?[ ]?2(?![\d])[ ]?\}}?)"
+    r"(?:\\[,;!]|\\cdot(?![A-Za-z])|[ \t*·])*+)?{}(?![\w'’′])(?:[ ]?(?:\\left)?\([^()=\n]{{1,24}}\))?"
+    r"[^=\n;+−-]{{1,30}}?(?:²|(?:\^|\*\*)[ ]?\{{?[ ]?2)"
+)
+_CHAIN_BEGINS = re.compile(r"[$;]|\n[ \t]*\n|\\[\[\]]|[.;,][ ]")
+_LONGEST_SIDE = 600
+"""How much of a chain before its last side is looked at."""
+
+
 def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> Iterator[re.Match[str]]:
     """The quantities with coordinates behind them that the answer states without these: V(θ) where V = m g l cos θ, and
     J_P(θ) where J_P = J + m (a² − 2 a b cos θ)."""
     for match in islice(_CALLED.finditer(text), _MAX):
-        name, listed = match["name"], [written(_OF_RATE.sub("", x)) for x in match["of"].split(",")]
+        name, listed = match["name"], [written(_OF_RATE.sub("", _VARIANT.sub("", x))) for x in match["of"].split(",")]
         if taken(written(name)) or changes(written(name)) or not all(map(changes, listed)):
             continue
         stated = value_stated(name, text)
-        energy = name in _ENERGIES
-        if stated is not None and (
-            energy or {*map(key, listed)} <= {key(_FUNCTION.sub("", written(x))) for x in _LETTERS_IN.findall(stated)}
-        ):
+        if stated is None and not is_in_chain(name, text):
+            continue
+        held = {key(_FUNCTION.sub("", written(_VARIANT.sub("", x)))) for x in _LETTERS_IN.findall(stated or "")}
+        if stated is None or name in _ENERGIES or {*map(key, listed)} <= held:
             yield match
 
 
@@ -168,10 +190,14 @@ def with_primes_as_slopes(
     return text.edited(apart(sorted(edits)))
 
 
+_APART = "$([{=,;:"
+"""Signs behind which nothing has to stand apart."""
+
+
 def apart_from(text: str, match: re.Match[str], new: str) -> str:
     """What stands in the place of a match, with spaces where there are none: two would be a gap between statements."""
     before, behind = text[match.start() - 1 : match.start()], text[match.end() : match.end() + 1]
-    return f"{'' if before.isspace() else ' '}{new}{'' if behind.isspace() else ' '}"
+    return f"{'' if before.isspace() or before in _APART else ' '}{new}{'' if behind.isspace() else ' '}"
 
 
 def _primed(name: str, of: str, *, alone: bool) -> list[str]:

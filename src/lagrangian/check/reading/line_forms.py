@@ -140,7 +140,7 @@ def rated_energy(
     stated = reader.names.energy(kind) if kind in ("T", "V") and order == 1 else None
     if not isinstance(stated, sp.Expr) or is_general(stated):
         return None
-    rate = bounded.diff(stated, time)
+    rate = reader.scalar(sides[0]) if reader.slopes else bounded.diff(stated, time)
     judged: Kind = "identity" if accelerates(rate) == accelerates(value) else "equation"
     return made_line(judged, rate, value, None, *sides, reader)
 

@@ -15,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.amounts import amounts_to, parameter_given, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
+from lagrangian.check.reading.chained_names import given_by_chains
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
@@ -56,6 +57,7 @@ from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
+from lagrangian.check.reading.slopes_by_dots import sloped
 from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
 from lagrangian.check.reading.summed_energies import PartsOfEnergies
 from lagrangian.errors import ParseError
@@ -71,15 +73,13 @@ class Lines:
 
     def __init__(self, model: Model, names: Names | None = None) -> None:
         self.model = model
-        self.names = names or Names(model)
+        self.names, self._free = names or Names(model), len(model.coordinates) - len(model.constraints)
         self.names.later = self._look_ahead
         self.budget = ReadingBudget()
-        self._waiting: dict[str, int] = {}
         self.subjects, self.energies = Subjects(model, self.names), PartsOfEnergies(model, self.names)
         self._statements: Sequence[Statement] = ()
-        self._made: dict[int, list[AnswerLine]] = {}
-        self._chain = 0
-        self._matrices: set[str] = set()
+        self._waiting, self._made = dict[str, int](), dict[int, list[AnswerLine]]()
+        self._chain, self._matrices = 0, set[str]()
         self.remarks, self.doubts = (list[ParseError]() for _ in range(2))
         """The errors of lines that matter only beside incomplete equations, and of those redefining a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
@@ -113,8 +113,7 @@ class Lines:
         lines = without_expressions(self._made, statements, self.names)
         accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
         self.lacking = found or (aside if accelerating < len(self.model.coordinates) else [])
-        free = len(self.model.coordinates) - len(self.model.constraints)
-        if self.lacking and not does_without(self.lacking, results, lines, free):
+        if self.lacking and not does_without(self.lacking, results, lines, self._free):
             raise together(self.lacking[:MOST_TOLD])
         forget_unused(lines, self.names)
         self.doubts += self.lacking[:MOST_TOLD]
@@ -124,8 +123,7 @@ class Lines:
     def _complete(self) -> bool:
         """Whether there is an equation with accelerations for every degree of freedom, perhaps in one of matrices."""
         moving = [s for s in self._statements if any(map(self.subjects.accelerates, s.sides))]
-        free = len(self.model.coordinates) - len(self.model.constraints)
-        return len(moving) >= free or any(self._has_matrices(s.sides) for s in moving)
+        return len(moving) >= self._free or any(self._has_matrices(s.sides) for s in moving)
 
     def _is_general(self, i: int, error: ParseError) -> bool:
         """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""
@@ -169,6 +167,8 @@ class Lines:
         self.subjects.bare = bare_names(side for s in self._statements for side in s.sides)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
+        self._waiting |= given_by_chains(dict(enumerate(turned)), self.names)
+        self.names.sloped = sloped(turned, self._statements, self.names)
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
         self.energies.gather(defining, self._statements)
 

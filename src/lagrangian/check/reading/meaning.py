@@ -83,7 +83,8 @@ class Meaning(ExpressionReader):
             return value
         if order == 1 and key(base) in self.slopes:
             whole = self.names.model.expand(value)
-            return self._differentiated(whole, next(iter(whole.atoms(AppliedUndef))), token)
+            by = next(iter(whole.atoms(AppliedUndef) & self.names.moving_symbols))
+            return self._differentiated(whole, by, token)
         if value.has(AppliedUndef, time) and order <= MAX_ORDER:
             return self._rated(value, order, token)
         return super()._name(node)

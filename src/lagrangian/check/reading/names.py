@@ -57,11 +57,10 @@ class Names:
     def __init__(self, model: Model) -> None:
         self.model = model
         self.scope = AnswerScope(Scope(model.symbols))
-        self.own: dict[str, tuple[str, Value]] = {}
         self.redefined = OwnValues()
         self.statement = 0
         """The number of the statement that is read."""
-        self.stated: dict[str, Value] = {}
+        self.own, self.stated = dict[str, tuple[str, Value]](), dict[str, Value]()
         self.unknown: dict[str, Unknown] = {}
         self.renamed: dict[str, Unknown] = {}
         """The names that were read as others of the system, with the symbols of these."""
@@ -81,6 +80,8 @@ class Names:
         """The coordinates in the order in which such a column holds them."""
         self.given_matrices, self.defined = set[str](), set[str]()
         """The names that a statement of the answer gives a matrix, and those that one defines."""
+        self.chained, self.sloped = dict[int, tuple[Token, int]](), dict[int, dict[str, str]]()
+        """By statement, the name that a chain of energies gives, with its side, and those whose primes are slopes."""
         self.residuals: frozenset[str] = frozenset()
         """The names that the answer gives to expressions that are zero."""
         self.differentiated: tuple[str, ...] = ()
@@ -94,8 +95,7 @@ class Names:
         self.headed: dict[int, str] = {}
         """The headings that say of which quantity the items of a list are, by the numbers of their lines."""
         self._forces = NamedForces(model)
-        self._moving: set[str] = set()
-        self._seen: Counter[str] = Counter()
+        self._moving, self._seen = set[str](), Counter[str]()
 
     # -- before the meaning ----------------------------------------------------------------------------------------
 

@@ -147,7 +147,8 @@ def _used_as_names(
                     yield key(written)
                 continue
             alone = only_name(others[0])
-            used = any(x == written for side in others for x, _ in names_in(side))
+            names = (x for side in others for x in names_in(side))
+            used = any(x == written and not (changing and kind == "V") for x, changing in names)  # V' is no value of V
             if used and (alone is None or alone[0] != written):
                 yield key(written)
 

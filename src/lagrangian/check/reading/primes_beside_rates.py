@@ -6,22 +6,22 @@ dT/dt = A θ' θ'' + A' θ'³ = A θ' θ'' − 2 m r² …       and the side be
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from itertools import pairwise
 
 import sympy as sp
-from lark import Token, Tree
+from lark import Tree
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.reading.chained_names import define_chained
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Value
 from lagrangian.check.reading.nodes import names_in
+from lagrangian.check.reading.slopes_by_dots import has_prime, with_slopes
 from lagrangian.model.names import time
 from lagrangian.read.letters import key
 
-_PRIME = re.compile(r"(?:\([^()]{1,20}\))?[ ]?['’′](?!['’′])")
 LONGEST = 200
 """The most terms of a side, multiplied out, whose dots are counted."""
 
@@ -32,6 +32,9 @@ def values_beside_rates(sides: Sequence[Tree], reader: Meaning) -> list[Value]:
     That is where the terms of a side with accelerations have equally many dots only with the slopes, or where more
     sides are equal to the one behind them.
     """
+    define_chained(sides, reader)
+    if with_slopes(reader):
+        return [reader.value(side) for side in sides]
     values = [reader.value(side) for side in sides]
     if not (primed := _own_functions(sides, reader)):
         return values
@@ -56,19 +59,13 @@ def _own_functions(sides: Sequence[Tree], reader: Meaning) -> dict[str, str]:
     have a dot, or dI/dt, anywhere in the statement are rates."""
     found: dict[str, str] = {}
     changing = [token for side in sides for token, changes in names_in(side) if changes]
-    dotted = {key(str(x)) for x in changing if not _has_prime(x, reader)}
+    dotted = {key(str(x)) for x in changing if not has_prime(x, reader.source.text)}
     for token in (x for x in changing if key(str(x)) not in dotted):
         name = str(token)
         _, value = reader.names.own.get(key(name), ("", None))
         if isinstance(value, sp.Expr) and slope_by(value, reader) is not None:
             found[key(name)] = name
     return found
-
-
-def _has_prime(token: Token, reader: Meaning) -> bool:
-    """Whether one prime is written behind a name."""
-    end = (token.start_pos or 0) + len(token)
-    return _PRIME.match(reader.source.text, end) is not None
 
 
 def slope_by(value: sp.Expr, reader: Meaning) -> sp.Expr | None:

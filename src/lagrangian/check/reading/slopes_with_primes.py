@@ -10,7 +10,7 @@ from collections.abc import Callable
 from itertools import islice
 from unicodedata import normalize
 
-from lagrangian.check.reading.arguments import apart_from
+from lagrangian.check.reading.arguments import apart_from, is_in_chain
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key
 
@@ -24,6 +24,8 @@ _STATED = re.compile(
     re.MULTILINE,
 )
 """A name with a prime that is given a value."""
+_BEGINS = r"(?:(?<![\w\\])|(?<=[½¼¾⅓⅔])|(?<=frac\d\d)|(?<=[-+−–=(\[{ ]\d))"
+"""Where a name begins, also behind a fraction or a number: ½I'."""
 _DOTS = re.compile("[\u0307\u0308]|\\\\d?dot(?![A-Za-z])")
 _PRIMED = re.compile(r"(?<![^\W\d_])(?P<name>\\?[^\W\d_]\w{0,15}?)[ ]?['’′″]")
 _LETTERS = re.compile(r"\\?[^\W\d_]+")
@@ -51,12 +53,10 @@ def with_primes_of_slopes(
     edits: list[Edit] = []
     for name, by in found.items():
         new = rf"\frac{{\partial {name}}}{{\partial {by}}}" if latex else f"∂{name}/∂{by}"
-        if (
-            re.search(rf"(?<![\w\\]){re.escape(name)}(?:\([^()\n]{{1,24}}\))?[ \t]*&?[ \t]*=(?![=>])", text.text)
-            is None
-        ):
+        given = rf"(?<![\w\\]){re.escape(name)}(?:\([^()\n]{{1,24}}\))?[ \t]*&?[ \t]*=(?![=>])"
+        if re.search(given, text.text) is None and not is_in_chain(name, text.text):
             new = f"{name}_{{slope}}" if latex else f"{name}_slope"  # it has no value, so that this is a name as any
-        form = rf"(?<![\w\\]){re.escape(name)}[ ]?['’′](?!['’′″])"
+        form = rf"{_BEGINS}{re.escape(name)}[ ]?['’′](?!['’′″])"
         edits += [(*m.span(), apart_from(text.text, m, new)) for m in re.finditer(form, text.text)]
         told.setdefault(f"{_bare(name)}' was read as the slope of {_bare(name)} by {_bare(by)}.")
     return text.edited(apart(sorted(edits)))
