@@ -31,6 +31,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.said_names import with_named_formulas
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
+from lagrangian.check.reading.named_sums import with_named_sums
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
@@ -233,7 +234,8 @@ def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
     inputs, moving, fixed = (
         {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
     )
-    apart = with_deviations(written, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    summed = with_named_sums(written, lambda name: key(name) in fixed, latex=bool(LATEX.search(written.text)))
+    apart = with_deviations(summed, lambda name: key(name) in moving, lambda name: key(name) in inputs)
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 
 
