@@ -130,3 +130,43 @@ def test_the_sign_of_a_sum_in_latex_may_be_part_of_a_name() -> None:
     answer = r"\[ \sum m\,\ddot z = F - c\dot z - k z - \sum m\,g,\qquad \sum m = m_0 + m_1 \]"
     assert judged(answer, LIFTS).status.name == "RIGHT"
     assert judged(answer.replace("m_0 + m_1", "m_1 + m_1"), LIFTS).status.name == "WRONG"
+
+
+ROLLER = """
+name = "roller"
+[coordinates]
+x = { description = "roller, to the right", unit = "m" }
+[parameters]
+m = "0.7 kg"
+J = "0.7 kg*m^2"
+a = { value = "0.7 m", description = "radius" }
+c = "0.7 N*s/m"
+[inputs]
+F = "N"
+[points]
+P = ["x", "0"]
+[[particle]]
+mass = "m"
+at = "P"
+[[kinetic]]
+value = "1/2*J*(x'/a)^2"
+[[damper]]
+b = "c"
+deflection = "x"
+[[force]]
+value = "F"
+deflection = "x"
+"""
+
+
+def test_an_article_is_no_length_and_what_follows_with_another_is_none() -> None:
+    """The floor pushes with N and with a couple K: no word says that N is a."""
+    answer = (
+        "The floor pushes with N (to the left) and with a couple K:\nm x'' = F - c x' - N\nJ x''/a = N a + K\nK = 0\n"
+    )
+    answer += "together: (m + J/a^2) x'' = F - c x'"
+    found = judged(answer, ROLLER)
+    assert found.right and not any("as the words say" in str(note) for note in found.notes)
+    assert not judged(answer.replace("F - c x'", "F + c x'"), ROLLER).right
+    assert not judged(answer.replace("(m + J/a^2)", "(m - J/a^2)"), ROLLER).right
+    assert judged("b is a here.\n(m + J/b^2) x'' = F - c x'", ROLLER).right
