@@ -76,6 +76,14 @@ def test_slopes_that_are_stated_may_hold_names_that_the_system_defines() -> None
         assert not judged(wrong).right
 
 
+def test_a_function_of_an_own_angle_has_a_slope_by_it() -> None:
+    """Θ(θ) with rates as dots: dΘ/dθ is its slope, and no d times θ."""
+    answer = SLOPES.replace("dV/dφ", "(−m g l sin φ)", 1).rpartition("dV/dφ")[0].replace("φ", "θ")
+    assert judged(answer).right
+    assert not judged(answer.replace("½ ", "")).right
+    assert not judged(answer.replace("J + m l²", "J + 2 m l²")).right
+
+
 LIFTS = """
 name = "lift with a load"
 [coordinates]
