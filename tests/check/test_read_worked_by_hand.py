@@ -178,3 +178,25 @@ def test_an_article_is_no_length_and_what_follows_with_another_is_none() -> None
     assert not judged(answer.replace("F - c x'", "F + c x'"), ROLLER).right
     assert not judged(answer.replace("(m + J/a^2)", "(m - J/a^2)"), ROLLER).right
     assert judged("b is a here.\n(m + J/b^2) x'' = F - c x'", ROLLER).right
+
+
+TABLE = """Reduced inertia
+
+  wheel    | on its own axis      | J
+  bar      | moves by l sin φ     | m d² sin² φ/4 = m l² sin² φ
+  ------------------------------------------
+  sum: I(φ)
+
+V(φ) = m g l cos φ
+Angular momentum-like quantity p = I(φ) φ̇, then
+  ṗ = τ − c φ̇ + m g l sin φ + m l² φ̇² sin φ cos φ
+"""
+
+
+def test_the_rows_of_a_table_are_added_to_what_stands_below_it() -> None:
+    found = judged(TABLE)
+    assert found.right and any("was added to I" in str(note) for note in found.notes)
+    assert judged(TABLE.replace("sum: I(φ)", "Total = I(φ)")).right
+    assert judged(TABLE.replace("m d² sin² φ/4 = ", "")).status.name == "RIGHT"
+    for old, new in (("| J", "| 2 J"), ("= m l²", "= 2 m l²"), ("+ m l² φ̇²", "− m l² φ̇²"), ("+ m g", "− m g")):
+        assert judged(TABLE.replace(old, new)).status.name == "WRONG"

@@ -75,6 +75,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_variations,
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
@@ -177,6 +178,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     copied = _copied(text) if LATEX.search(text) else without_leading_words(_copied(text), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
+    dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
