@@ -46,6 +46,14 @@ def test_a_constant_before_a_coordinate_belongs_to_the_angle(form: str) -> None:
     assert not planet().check(written.replace("n + 1", "n - 1").replace("n+1", "n-1").replace("n^2", "n")).right
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_so_does_one_before_an_angle_with_another_name(form: str) -> None:
+    """An own θ, whose rates the answer writes, stands for the angle of the arm: sin n θ is sin(n θ)."""
+    written = FORMS[form].replace("phi", "theta").replace(r"\vartheta", r"\theta")
+    assert planet().check(written).right
+    assert not planet().check(written.replace("n + 1", "n - 1").replace("n+1", "n-1").replace("n^2", "n")).right
+
+
 def test_a_coordinate_behind_another_sine_is_a_factor() -> None:
     s = lg.System("block on a slope")
     x = s.coordinate("x")

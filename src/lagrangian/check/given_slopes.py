@@ -62,11 +62,12 @@ def _by_rate(truth: Reference, slope: SlopeNamed) -> bool:
 
 
 def _is_value(truth: Reference, value: sp.Expr) -> bool:
-    """Whether an expression is in names of the system, without accelerations and inputs."""
+    """Whether an expression is in names of the system, its definitions among them, without accelerations and inputs."""
     accelerations = [c.acceleration for c in truth.model.coordinates]
     inputs = [u.symbol for u in truth.model.inputs]
     held = any(is_placeholder(x) for x in bounded.atoms(value, AppliedUndef))
-    return not held and bounded.letters(value) <= truth.names and not value.has(*accelerations, *inputs)
+    plain = value if bounded.letters(value) <= truth.names else truth.expand(value)  # l stands for R - r
+    return not held and bounded.letters(plain) <= truth.names and not plain.has(*accelerations, *inputs)
 
 
 def _compared(truth: Reference, line: AnsweredLine, slope: SlopeNamed, value: sp.Expr) -> AnsweredLine:

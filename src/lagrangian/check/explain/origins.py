@@ -167,7 +167,8 @@ def _with_marks(
             continue
         plain = [cast("sp.Expr", expr.xreplace(marks.plain)), line.expr]
         known = [cast("sp.Expr", x.xreplace(dict.fromkeys(_foreign(truth, x), sp.S.Zero))) for x in plain]
-        if zero_everywhere(truth, known[0] - known[1]):
+        rest = known[0] - known[1]
+        if not rest.has(sp.nan, sp.zoo) and zero_everywhere(truth, rest):  # 0 in place of a name may divide
             return expr
     return None
 

@@ -291,7 +291,9 @@ def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str]
 def _has_rate(name: str, text: str) -> bool:
     """Whether an answer differentiates a name by time."""
     return (
-        re.search(rf"(?<!\w){re.escape(name)}(?:['’′]|d?dot\b)|\\d?dot\s?\{{?\s?\\?{re.escape(name)}(?!\w)", text)
+        re.search(
+            rf"(?<!\w){re.escape(name)}(?:['’′\u0307\u0308]|d?dot\b)|\\d?dot\s?\{{?\s?\\?{re.escape(name)}(?!\w)", text
+        )
         is not None
     )
 

@@ -12,6 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import Node, names_in, only_name
 from lagrangian.model import Model
+from lagrangian.read.letters import key
 
 MOST_POINTS = 200
 """The most points and frames in which angles are sought."""
@@ -19,10 +20,18 @@ MOST_POINTS = 200
 
 def is_multiple(first: Node, second: Node, names: Names) -> bool:
     """Whether two factors behind a sine or cosine are an angle of the system: a constant that is none by itself, or a
-    name or a sum in brackets of such constants, and a coordinate that is multiplied so in the system."""
+    name or a sum in brackets of such constants, and a coordinate that is multiplied so in the system.
+
+    A name of the answer's own whose rate it writes may stand for any of these coordinates.
+    """
     multiples = _multiples(names.model)
     of = only_name(second)
-    coordinate = _meaning(of[0], names) if multiples and of is not None and of[1] == 0 else None
+    if not multiples or of is None or of[1] != 0:
+        return False
+    coordinate = _meaning(of[0], names)
+    if coordinate is None and key(of[0]) in names.scope.moving:
+        inside = [] if isinstance(first, Tree) and first.data == "call" else _constants(first, names)
+        return bool(inside) and {None, *(c for c, _ in multiples)}.issuperset(inside)
     if coordinate is None or coordinate not in {x for _, x in multiples}:
         return False
     alone = only_name(first)
@@ -32,6 +41,14 @@ def is_multiple(first: Node, second: Node, names: Names) -> bool:
     inside = [] if not isinstance(first, Tree) or first.data == "call" else list(names_in(first))
     found = [_meaning(x, names) for x, changing in inside if not changing]
     return bool(found) and len(found) == len(inside) and all(x is None or (x, coordinate) in multiples for x in found)
+
+
+def _constants(first: Node, names: Names) -> list[sp.Basic | None]:
+    """What the names in a factor are in the system; one that moves is itself."""
+    alone = only_name(first)
+    listed = [alone] if alone is not None else list(names_in(first)) if isinstance(first, Tree) else []
+    moving = names.scope.moving
+    return [sp.Symbol(str(x)) if changing or key(x) in moving else _meaning(x, names) for x, changing in listed]
 
 
 def _meaning(written: Token, names: Names) -> sp.Basic | None:

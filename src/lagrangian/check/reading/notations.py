@@ -31,6 +31,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.said_names import with_named_formulas
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
+from lagrangian.check.reading.named_sums import with_named_sums
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
@@ -74,6 +75,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_variations,
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
@@ -178,6 +180,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     copied = _copied(text) if LATEX.search(text) else without_leading_words(_copied(text), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
+    dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
@@ -236,7 +239,8 @@ def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
     inputs, moving, fixed = (
         {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
     )
-    apart = with_deviations(written, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    summed = with_named_sums(written, lambda name: key(name) in fixed, latex=bool(LATEX.search(written.text)))
+    apart = with_deviations(summed, lambda name: key(name) in moving, lambda name: key(name) in inputs)
     apart = apart.sub(_ADDED_DEGREES, lambda m: f"{m['sign']} ({m['number']}*pi/180)")
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 

@@ -33,6 +33,11 @@ _OF_ANGLE = re.compile(r"(?<!\w)(?:sin|cos|tan)[ ]?\([ ]?([^\W\d]\w{0,24}+)(?=[ 
 _WORD = re.compile(r"(?<![^\W_])[A-Za-z](?![^\W_])")
 _RATED = re.compile(r"(?<![\w'’′])(?P<name>[A-Za-z]{2,4}\d{0,2})(?:['’′″](?!s\b)|_?dd?ot(?!\w)|_?dd(?!\w))")
 """A name with a mark of a rate."""
+_MOVING = re.compile(
+    r"\\d?dot[ ]?\{?[ ]?\\?(?P<latex>[^\W\d_]\w{0,15}+)"
+    r"|(?<![\w\\])(?P<plain>[^\W\d_]\w{0,15}?)(?:[\u0307\u0308'’′″]|_?dd?ot(?!\w)|_?dd(?!\w))"
+)
+"""A name with the marks of a rate, in any notation."""
 _TWO_LETTERS = re.compile(r"([A-Za-z][a-z])_?(\d*)")
 
 
@@ -53,6 +58,8 @@ class AnswerScope(Scope):
         self.used: frozenset[str] | None = frozenset()
         self._doubled: dict[str, str] = {}
         self._rated: frozenset[str] = frozenset()
+        self.moving: frozenset[str] = frozenset()
+        """The keys of the names of which the answer writes rates."""
         self._meant: dict[str, tuple[list[str], int]] = {}
         super().__init__(symbols)
         for name in symbols:
@@ -64,6 +71,7 @@ class AnswerScope(Scope):
         self._meant.clear()
         self.taken = frozenset(map(key, own))
         self._rated = frozenset(m["name"] for m in _RATED.finditer(text))
+        self.moving = frozenset(key(m["latex"] or m["plain"]) for m in _MOVING.finditer(text))
         self.used = frozenset(used) | self._rated | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
         doubled = [x for x in self.used if len(x) == 2 and x[0] == x[1] and key(x) not in self.taken]
         doubled = [x for x in doubled if x.isupper() or x[0] not in self]  # aa is a²

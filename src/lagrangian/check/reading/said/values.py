@@ -76,6 +76,11 @@ _DONE = frozenset(["times", "mal", "fois", "plus", "minus", "less"])
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
 _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
+_ARTICLE = re.compile(
+    r"[ \t]++(?!(?:in|on|at|by|as|or|and|for|if|is|of|to|here|there|above|below|instead|too|times)\b)[a-z]{2,24}+"
+    r"(?![\w(=*/^'’′])"
+)
+"""What stands behind a letter that is an article: with a couple."""
 _NAMED_IN = re.compile(r"[^\W\d_]\w*")
 _ENDS = re.compile(r"(?<=[\w)\]}$'’′″²³])[.;](?=\s|\Z)|\n[ \t]*\n|\n(?=[ \t]*(?:\\|[A-Z(]|[^\n=]{0,200}=))")
 _COMPARED = re.compile(r"[ \t$]*+(?:[<>≤≥≪≫]|\\(?:ll|gg|leq?|geq?)(?![a-z]))")
@@ -182,7 +187,8 @@ def _items(sentence: str, names: dict[str, str], words: Words, *, latex: bool) -
         directed = written.startswith("+") or (
             written.startswith(("-", "−")) and before[-1:] in (("in",), ("along",))
         )  # in -x
-        if stated or directed or _COMPARED.match(sentence, end):
+        article = written == "a" and not latex and _ARTICLE.match(sentence, end) is not None
+        if stated or directed or article or _COMPARED.match(sentence, end):
             yield _Item("other", written, before)
         elif bare in names:
             yield _Item("name", bare, before)
@@ -237,6 +243,9 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
             has = bool(lower & _HAVING) and between[-1].lower() not in _HAVING  # the force N with the arm s
             has &= not (lower & _IS) - _HAVING - {"the"} and not lower & _VALUE
             says = lower & _IS - {"the"} or between[:1] == ("the",)  # the string pulls with A at the lever r
+            has |= any(
+                x.lower() in _JOINS and y.lower() in _HAVING for x, y in pairwise(between)
+            )  # N and with a couple
             sure = bool(says) and not has and not lower & {"not", "nicht"} and len(first) == len(second)
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
             yield from (
