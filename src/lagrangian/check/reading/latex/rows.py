@@ -94,6 +94,11 @@ _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
 _BLANK = re.compile(r"\n[ \t]*+\n")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
+_AT_MARK = re.compile(
+    r"(?P<mark>\s*+&)\s*+[-−–](?=[^&=]*\\delta(?![A-Za-z]))[^&=]*+=(?:\s|\\[,;:! ])*+0\s*+[.,;]?\s*+\Z"
+)
+_WORK_BEFORE = re.compile(r"\s*+\\delta\s*+[WA](?![A-Za-z])[^&=]*+=\s*+(?:\{\s?\}\s*+)?&(?!\s*+=)")
+"""A row with a minus at the mark behind = in a virtual work above: \\delta W ={}& a\\\\ &- b\\delta x = 0."""
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
 
@@ -195,7 +200,11 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
             continue
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
             gap = at + start - previous.start - len(previous.text)
-            rows[-1] = AnswerRow(previous.start, previous.text + " " * gap + kept)
+            at_mark = _AT_MARK.match(kept)
+            rows[-1] = AnswerRow(
+                previous.start,
+                previous.text + " " * gap + (blank(kept, 0, at_mark.end("mark")) if at_mark is not None else kept),
+            )
         elif "\\" in kept or not plain_words(kept):
             rows.append(AnswerRow(at + start, kept))
         end = at + len(piece)
@@ -289,6 +298,8 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False
+    if hard and _AT_MARK.match(piece) and _WORK_BEFORE.match(before):
+        return True
     return ("=" in before) != ("=" in piece)
 
 
