@@ -149,3 +149,16 @@ def test_an_amount_is_told_with_three_digits() -> None:
     """0.0625, not 0.06 where 0.25 was written."""
     verdict = swing().check(f"m l^2/30 = 0.45\n{ROW}")
     assert [str(f.note) for f in verdict.findings if not f.status.right] == ["l^2*m/30 is 0.0405, not 0.45."]
+
+
+@pytest.mark.parametrize("row", [ROW, LETTERS])
+def test_letters_that_amount_to_nothing_are_worked_out(row: str) -> None:
+    """4 l and 9 a are 3.6 m; without its numbers such a line would be a condition."""
+    line = "4 l - 9 a = 3.6 - 3.6 = 0   (balanced!)"
+    assert swing().check(f"{line}\n{row}", hint=0).right
+    assert swing().check(f"0 = 3.6 - 3.6 = 4 l - 9 a\n{row}", hint=0).right
+    assert not swing().check(f"{line}\n{row.replace('+ 32', '- 32').replace('+ k', '- k')}", hint=0).right
+    for wrong, amount in (("4 l - 8 a", "-0.4"), ("4 l + 9 a", "7.2")):
+        verdict = swing().check(f"{line.replace('4 l - 9 a', wrong)}\n{row}")
+        assert [f.line.number for f in verdict.findings if f.status is Status.WRONG] == [1]
+        assert f"is {amount}, not 0." in verdict.to_text()

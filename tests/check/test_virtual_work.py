@@ -1,6 +1,7 @@
 """Lines of virtual work, δW = F δx − b ẋ δx, are judged: a wrong one is a wrong Ξ."""
 
 import pytest
+from small_systems import cart
 
 from built_in import derivation
 from lagrangian import System
@@ -126,3 +127,36 @@ def test_virtual_works_that_alone_state_the_forces_hold_all_of_them() -> None:
     assert cart.check(energies + "push: δW_1 = F δx\nfriction: δW_2 = -b x' δx").right
     (mistake,) = cart.check(energies + "δW = F δx").mistakes
     assert "Damper" in str(mistake.what) and "is missing" in str(mistake.what)
+
+
+PRINCIPLE = r"""\begin{align*}
+\delta W ={}& -\bigl[(M+m)\ddot x+ml(\ddot\phi\cos\phi-\dot\phi^2\sin\phi)\bigr]\delta x-k\,e\,\delta e\\
+&-\bigl[ml\ddot x\cos\phi+ml^2\ddot\phi\bigr]\delta\phi-mg\,\delta h=0 .
+\end{align*}
+Here $e=x$ and $h=-l\cos\phi$, so \[ \delta e=\delta x,\qquad \delta h=l\sin\phi\,\delta\phi . \]
+\begin{align*}
+\delta x:&\quad (M+m)\ddot x+ml(\ddot\phi\cos\phi-\dot\phi^2\sin\phi)+ke=0\\
+\delta\phi:&\quad ml\ddot x\cos\phi+ml^2\ddot\phi+mgl\sin\phi=0
+\end{align*}"""
+
+
+def test_a_principle_over_several_rows_is_one_and_its_own_displacements_are_written_out() -> None:
+    """A row that begins with a minus at the mark behind = goes on; δh is that of the height h that is defined below."""
+    assert cart().check(PRINCIPLE).right
+    for right, wrong in (
+        ("-k\\,e", "+k\\,e"),
+        ("-mg\\,", "+mg\\,"),
+        ("\\phi\\bigr]\\delta\\phi", "\\phi/2\\bigr]\\delta\\phi"),
+    ):
+        verdict = cart().check(PRINCIPLE.replace(right, wrong))
+        assert {f.line.number for f in verdict.findings if not f.status.right} <= {2, 3}
+        assert not verdict.right
+    assert not cart().check(PRINCIPLE.replace("+mgl", "-mgl")).right
+    assert not cart().check(PRINCIPLE.replace("+ke=0", "-ke=0")).right
+
+
+def test_equations_below_each_other_that_begin_with_a_minus_are_two() -> None:
+    first = r"(M+m)\ddot x+ml(\ddot\phi\cos\phi-\dot\phi^2\sin\phi) ={}& -kx"
+    second = r"& -l\ddot\phi-\ddot x\cos\phi-g\sin\phi=0"
+    assert cart().check(rf"\begin{{align}} {first}\\ {second} \end{{align}}").right
+    assert not cart().check(rf"\begin{{align}} {first}\\ {second.replace('-g', '+g')} \end{{align}}").right

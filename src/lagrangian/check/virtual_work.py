@@ -15,11 +15,13 @@ from lagrangian import bounded
 from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.lines import filled
 from lagrangian.check.reading.line_forms import accelerates
-from lagrangian.check.reading.placeholders import displacements
+from lagrangian.check.reading.placeholders import displacements, variation
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, compare, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.model import time
+from lagrangian.model.names import moving_symbol
 from lagrangian.read.letters import key
 
 MOST, MOST_TERMS = 4, 24
@@ -39,7 +41,7 @@ def judged_with_work(
     A line may be about some of the forces, and the forces with a potential may be among them. Wrong equations of motion
     are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0.
     """
-    lines = [x for line in lines for x in _wrong_equations(truth, line) or [line]]
+    lines = [x for line in lines for x in _wrong_equations(truth, _in_coordinates(truth, lines, line)) or [line]]
     works = [k for k, line in enumerate(lines) if _is_work(truth, line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
@@ -54,6 +56,32 @@ def judged_with_work(
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
     wrong = wrong or {k: found for k in works if (found := _copied_forces(truth, written, written[k]))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
+
+
+def _in_coordinates(truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine) -> AnsweredLine:
+    """A line of d'Alembert's principle with the virtual displacements of quantities that the answer defines, δe of the
+    elongation e, in those of the coordinates, and with these quantities written out; any other line as it is."""
+    claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
+    places = {key(c.name) for c in truth.model.coordinates}
+    own = {x: name for x, name in displacements(line.expr).items() if key(name) not in places} if claims else {}
+    if not 0 < len(own) <= MOST or any(_OF_WORK.fullmatch(name) for name in own.values()):
+        return line
+    defined = {x.name: x.expr for x in lines if x.kind == "definition"}
+    asked = [replace(line, expr=defined.get(name, moving_symbol(name))) for name in own.values()]
+    written = filled(truth, [*lines, line, *asked])[len(lines) :]
+    if len(written) != 1 + len(asked) or any(not _is_place(truth, x.expr) for x in written[1:]):
+        return line
+    moved = {
+        x: sp.Add(*[bounded.diff(v.expr, c.symbol) * variation(c.name) for c in truth.model.coordinates])
+        for x, v in zip(own, written[1:], strict=True)
+    }
+    return replace(line, expr=cast("sp.Expr", written[0].expr.xreplace(moved)))
+
+
+def _is_place(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression depends on coordinates and parameters alone."""
+    known = {time, *(c.symbol for c in truth.model.coordinates), *(p.symbol for p in truth.model.parameters)}
+    return not expr.has(sp.Derivative) and bounded.letters(expr) <= known
 
 
 def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:

@@ -59,11 +59,13 @@ class _Written:
 
 @dataclass(frozen=True)
 class _Stated:
-    """What letters amount to, ``meant``, and the number that a side of a line gives for it."""
+    """What letters amount to, ``meant``, of which the largest term is of the size ``scale``, and the number that a side
+    of a line gives for it."""
 
     letters: sp.Expr
     meant: float
     number: float
+    scale: float
 
 
 def judged_with_amounts(
@@ -80,7 +82,9 @@ def judged_with_amounts(
     lines = [replace(x, expr=sp.S.Zero) if _holds_in_values(truth, x, own, stated) else x for x in lines]
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
         same = list(group)
-        said = [line for line in same if _says_amount(line, own)] if len(same) <= min(MOST_SIDES, left) else []
+        chain = len(same) > 1 and any(map(_is_number, same))
+        few = len(same) <= min(MOST_SIDES, left)
+        said = [line for line in same if _says_amount(line, own, chain=chain)] if few else []
         said = [line for line in said if np.isfinite(_amount(truth, line.expr, own))]
         left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
@@ -144,13 +148,15 @@ def _as_said(line: AnsweredLine, said: Sequence[AnsweredLine]) -> AnsweredLine:
     return replace(line, expr=sp.S.Zero) if _is_number(line) else line
 
 
-def _says_amount(line: AnsweredLine, values: _Values) -> bool:
-    """Whether a line equates letters of which all values are known with a number."""
+def _says_amount(line: AnsweredLine, values: _Values, *, chain: bool) -> bool:
+    """Whether a line equates letters of which all values are known with a number, which may be 0 in a ``chain`` with
+    numbers: m a - m_c b = 0.016 - 0.016 = 0. Alone, m a - m_c b = 0 is a condition."""
     named = bounded.symbols(line.expr)
     if line.kind != "equation" or not named or not named <= values.keys() or bounded.atoms(line.expr, AppliedUndef):
         return False
     number = _number_in(line.expr)
-    return bool(number != 0 and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
+    counts = number != 0 or (chain and 0 in (line.sides or ()))
+    return bool(counts and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
 
 
 def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> list[AnsweredLine]:
@@ -190,6 +196,7 @@ def _untrue(
         near = (EXACT + loose if numbers else ROUNDED) * abs(x.meant)
         if digits is not None:
             near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
+        near = max(near, EXACT * x.scale) if x.number == 0 else near
         if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
             return _told(x, digits), x.number - x.meant
         above = x.number
@@ -211,7 +218,9 @@ def _stated(
                 yield last
             continue
         number = _number_in(expr)
-        last = _Stated(expr - number, _amount(truth, expr - number, values), -float(number))
+        letters = expr - number
+        scale = max(abs(_amount(truth, x, values)) for x in sp.Add.make_args(letters))
+        last = _Stated(letters, _amount(truth, letters, values), -float(number), scale)
         yield last
 
 
@@ -236,7 +245,7 @@ def _same(a: float, b: float) -> bool:
 def _told(stated: _Stated, digits: _Written | None) -> Text:
     """What letters amount to, with as many digits as the number that an answer gives: m g l/2 is 6.62, not 7.62."""
     sign = -1 if stated.letters.could_extract_minus_sign() else 1
-    meant, number = sign * stated.meant, sign * stated.number
+    meant, number = sign * stated.meant, sign * stated.number + 0.0  # 0, and not -0
     what = sign * stated.letters
     roots = [x for x in what.atoms(sp.Pow) if x.is_number and x.is_positive and abs(x.args[1]) == sp.S.Half]
     if roots:  # sin 12° is one of roots in roots

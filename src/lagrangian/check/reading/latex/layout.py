@@ -20,6 +20,15 @@ _ENVIRONMENT = re.compile(r"\\begin\{(?P<kind>(?:align|gather|flalign|alignat)\*
 _BETWEEN = re.compile(r"\\(?:short)?intertext\s*\{")
 _ROW_ENDS = re.compile(r"(?:\\\\(?:\[[^\]]{0,12}\])?|\\begin\{[a-z]{1,12}\*?\}(?:\{\d\})?)\s*\Z")
 """What stands before the beginning of a row."""
+_GAP = r"(?:\s|~|&|\\[,;:! ]|\\(?:q?quad|hfill|hspace\*?\{[^{}]{0,12}\})(?![A-Za-z])|\{\s?\})"
+_DONE = re.compile(
+    r"(?:\\(?:blacksquare|square|Box|[qQ][eE][dD]|qedsymbol|qedhere|checkmark|bigstar|blacktriangle|triangleleft)"
+    rf"(?![A-Za-z])|[✓✔☑∎■□▢])(?={_GAP}*+(?:\\\\|\\end\{{|[.,;}}]|\Z))"
+)
+"""What says that the work is done, behind an equation: \\qquad\\blacksquare."""
+_BEFORE = re.compile(rf"{_GAP}++\Z")
+_FAR = 40
+"""The most characters of space in front of such a mark."""
 _MAX = 200
 
 
@@ -38,6 +47,18 @@ def with_open_text(written: TracedText) -> TracedText:
         elif opened and _ROW_ENDS.search(text, max(0, match.start() - 60), match.start()) is None:
             edits.append((match.start(), match.start(), "\\\\ "))
     return written.edited(edits)
+
+
+def without_end_marks(text: str) -> str:
+    r"""Return the text without the marks that say behind an equation that the work is done; one that is a side or a
+    factor, x = \\square, stays."""
+
+    def blank(match: re.Match[str]) -> str:
+        before = _BEFORE.sub("", text[max(0, match.start() - _FAR) : match.start()])
+        stays = before[-1:] in {*"=+-−*/·^_({[<>", ""}
+        return match.group() if stays else " " * len(match.group())
+
+    return _DONE.sub(blank, text)
 
 
 def without_braces(text: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, without_braces, without_units
+from lagrangian.check.reading.latex.layout import closing, without_braces, without_end_marks, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.plain.ends import incomplete
@@ -69,10 +69,10 @@ _LETTER_BEFORE = re.compile(
 _NAME_BEFORE = re.compile(
     rf"{_SPACE}(?:(?:eqn?\.?|equation|gl\.?|gleichung)[ ](?:(?:for|of|in|für|von)[ ])?)?(?:\\delta\s*+)?"
     r"(?:\\[A-Za-z]{2,12}|[^\W\d_])(?:\s?_\s?(?:\w|\{\w{1,8}\}))?"
-    rf"(?:[- ]?(?:{DIRECTIONS})\b\.?)?\s*:(?={_SPACE}[^\s=])(?=.*=)",
+    rf"(?:['’′]{{1,2}}|\^\s?\{{?\s?\\prime\s?\}}?)?(?:[- ]?(?:{DIRECTIONS})\b\.?)?\s*:(?={_SPACE}[^\s=])(?=.*=)",
     re.DOTALL | re.IGNORECASE,
 )
-"""The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F, \\phi-equation: …"""
+"""The name of the coordinate or axis whose equation follows: x: &\\quad m\\ddot x = F, \\phi-equation: …, y': …"""
 _TAGGED = r"\(\s*(?:\\[A-Za-z]{2,12}|[^\W\d_])(?:\s?_\s?(?:\w|\\[A-Za-z]{2,12}|\{\s?\\?\w{1,8}\s?\}))?['’′]*\s*\)"
 _WORDS_BEFORE = re.compile(rf"{_SPACE}\x00(?:\s|~|\(\s*\w{{1,4}}\s*\))*:(?={_SPACE}[^\s=])(?=.*=)", re.DOTALL)
 r"""Words and a colon: \text{Moments about A}: J \ddot\theta = …"""
@@ -94,6 +94,11 @@ _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
 _BLANK = re.compile(r"\n[ \t]*+\n")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
+_AT_MARK = re.compile(
+    r"(?P<mark>\s*+&)\s*+[-−–](?=[^&=]*\\delta(?![A-Za-z]))[^&=]*+=(?:\s|\\[,;:! ])*+0\s*+[.,;]?\s*+\Z"
+)
+_WORK_BEFORE = re.compile(r"\s*+\\delta\s*+[WA](?![A-Za-z])[^&=]*+=\s*+(?:\{\s?\}\s*+)?&(?!\s*+=)")
+"""A row with a minus at the mark behind = in a virtual work above: \\delta W ={}& a\\\\ &- b\\delta x = 0."""
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
 
@@ -185,7 +190,7 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
     for form in (_WRAPPER, _NOTE, _UPRIGHT_NUMBER):
         text = form.sub(lambda m: " " * len(m.group()), text)
-    text = without_units(without_braces(_with_points(_without_words(_unboxed(text)))))
+    text = without_units(without_braces(_with_points(_without_words(without_end_marks(_unboxed(text))))))
     rows: list[AnswerRow] = []
     end = 0
     for at, piece, hard in _cut(text, lines):
@@ -195,7 +200,11 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
             continue
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
             gap = at + start - previous.start - len(previous.text)
-            rows[-1] = AnswerRow(previous.start, previous.text + " " * gap + kept)
+            at_mark = _AT_MARK.match(kept)
+            rows[-1] = AnswerRow(
+                previous.start,
+                previous.text + " " * gap + (blank(kept, 0, at_mark.end("mark")) if at_mark is not None else kept),
+            )
         elif "\\" in kept or not plain_words(kept):
             rows.append(AnswerRow(at + start, kept))
         end = at + len(piece)
@@ -289,6 +298,8 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False
+    if hard and _AT_MARK.match(piece) and _WORK_BEFORE.match(before):
+        return True
     return ("=" in before) != ("=" in piece)
 
 

@@ -19,10 +19,13 @@ LONGEST = 400
 """The most characters of what stands above a brace."""
 
 _NAME = r"\\?[^\W\d_][A-Za-z]{0,11}(?:_(?:\w|\{\w{1,8}\}|\\[A-Za-z]{2,8}))?(?![\w_{])"
+_THIN = r"(?:\s|\\[,;:! ])*+"
 _BRACE = re.compile(r"\\under(?:brace|bracket)\s{0,3}(?=\{)")
 _LABEL = re.compile(
-    rf"\s{{0,3}}_\s{{0,3}}(?:\{{\s*(?:=?:?=|\\equiv|:=)?\s*(?P<braced>{_NAME})\s*(?::?=|=:)?\s*\}}|(?P<bare>\w))"
+    rf"\s{{0,3}}_\s{{0,3}}(?:\{{{_THIN}(?:=:|=?:?=|\\equiv|:=)?{_THIN}(?P<braced>{_NAME}){_THIN}(?::?=|=:)?\s*\}}"
+    r"|(?P<bare>\w))"
 )
+_SINGLE = re.compile(r"\\[A-Za-z]+|[A-Za-z](?:_(?:\w|\{\w{1,8}\}|\\[A-Za-z]{2,8}))?")
 _DISPLAY = re.compile(
     r"\\begin\{(?P<kind>equation|align|gather|multline|eqnarray|flalign|alignat|displaymath)\*?\}|\\\[|\$\$|\n[ \t]*\n"
 )
@@ -61,7 +64,7 @@ def _with_named_braces(written: TracedText, taken: Callable[[str], bool]) -> Tra
         if name in named or taken(_bare(name)) or "=" in inside or _is_given(text, name):
             continue
         others = text[: label.start()] + text[label.end() :]
-        if re.search(rf"(?<![\w\\]){re.escape(name)}(?![A-Za-z_])", others) is None:
+        if not _is_used(others, name):
             continue
         named.add(name)
         at = _front(text, match.start())
@@ -78,6 +81,13 @@ def _front(text: str, place: int) -> int:
         if match.group() == "$$" and text.count("$$", 0, match.end()) % 2 == 1:
             at = match.start()
     return at
+
+
+def _is_used(text: str, name: str) -> bool:
+    """Whether a name stands in a text; one that begins with a single letter may follow another name, as in r_2F_1."""
+    if re.search(rf"(?<![\w\\]){re.escape(name)}(?![A-Za-z_])", text) is not None:
+        return True
+    return name[1:2] == "_" and any(m.group() == name for m in _SINGLE.finditer(text))
 
 
 def _is_given(text: str, name: str) -> bool:

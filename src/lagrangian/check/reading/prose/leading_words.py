@@ -1,6 +1,7 @@
 """Words in front of a definition that look like mathematics: Newton/Euler, w = φ̇ + ψ̇; distance from O (of AB)   p = …
 
-A stroke between two words is no division, and a point that is named in words is no name of the answer.
+A stroke between two words is no division, a point that is named in words is no name of the answer, and a verb that
+introduces a name is no factor of it: Abbreviate σ = sin(φ − θ).
 """
 
 from __future__ import annotations
@@ -17,11 +18,19 @@ _LED = re.compile(
     re.MULTILINE,
 )
 _POINT = re.compile(r"(?P<of>\b(?:from|about|point|to|at|around)[ \t])[A-Z](?![\w'’])")
+_VERB = re.compile(
+    r"(?P<before>^(?:[ \t]*+(?:[-•*+][ \t]++|\d{1,2}[.)][ \t]++)?)|(?<=[.:;,])[ \t]++)"
+    r"(?P<verb>(?:abbreviat|denot|defin|introduc|writ|substitut|nam|us)(?:e|ing)|(?:put|sett)ing|call(?:ing)?|put|set"
+    r"|say|setze|setzt|bezeichne|definiere|schreibe|nenne|sei|seien|posons|notons|soit|soient)(?=[ \t]++"
+    r"\\?(?P<new>[^\W\d]\w{0,15}+)(?:\([^()=\n]{1,20}\))?[ \t]*+:?=(?![=>]))",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A verb alone in front of the definition of a new name, at the beginning of a sentence."""
 _WORD = re.compile(r"[^\W\d_]{3,}")
 
 
 def without_leading_words(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
-    """Return an answer in plain text without such strokes and points; ``taken`` are names of the system."""
+    """Return an answer in plain text without such strokes, points and verbs; ``taken`` are names of the system."""
 
     def apart(match: re.Match[str]) -> str:
         one, other = match["one"], match["other"]
@@ -32,4 +41,8 @@ def without_leading_words(written: TracedText, taken: Callable[[str], bool]) -> 
         said = _POINT.sub(lambda m: m.group() if taken(m.group()[-1]) else f"{m['of']} ", match["words"])
         return said + (" " * len(aside) if len(_WORD.findall(aside)) > 1 else aside)
 
-    return written.sub(_STROKE, apart).sub(_LED, bare)
+    def silent(match: re.Match[str]) -> str:
+        verb = match["verb"]
+        return match.group() if taken(verb) or taken(match["new"]) else match["before"] + " " * len(verb)
+
+    return written.sub(_VERB, silent).sub(_STROKE, apart).sub(_LED, bare)
