@@ -63,3 +63,20 @@ def test_a_coordinate_behind_another_sine_is_a_factor() -> None:
     s.spring(k, deflection=x)
     assert s.derive().check("V = k x^2/2 - m g sin alpha x").right
     assert s.derive().check(r"\[ V = \tfrac12kx^2-mg\sin\alpha x \]").right
+
+
+def test_the_value_of_what_the_system_defines_is_no_equation() -> None:
+    s = lg.System("geared drum")
+    phi = s.coordinate("phi")
+    J, I = s.parameters("J I")
+    R, r = s.parameter("R", 0.12), s.parameter("r", 0.04)
+    n = s.define("n", R / r)
+    s.kinetic(J * phi.diff() ** 2 / 2, name="drum")
+    s.kinetic(I * (n * phi.diff()) ** 2 / 2, name="motor")
+    s.torque(s.input("M"), on=phi)
+    derivation = s.derive()
+    row = "(J + n^2 I) phi'' = M\n"
+    assert derivation.check(row + "Should I put n = 3?").right
+    assert derivation.check(row + "n = 3").right
+    assert not derivation.check(row + "n = 2").right
+    assert not derivation.check("(J + 3 I) phi'' = M\nn = 3").right

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.names.spelling import values_of
@@ -17,10 +18,14 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import FEWEST_DIGITS, coefficients, is_true_number, last_digit
 from lagrangian.check.verdict import AnsweredLine
 
+NEAR = 1e-3
+"""How near a value that an answer states is to that of the system."""
+
 
 def with_stated_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
     """The lines without those that only say the value of a number, and with the exact value of what was computed with
     these."""
+    lines = [x for x in lines if not _is_value(truth, x)]
     said = [x for x in lines if is_true_number(x)]
     others = [x for x in lines if not is_true_number(x)]
     stated = dict(_stated(said))
@@ -39,6 +44,21 @@ def with_stated_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> list
             exact = min(meant, key=lambda pair: pair[0])[1]
             table |= {number: exact, -number: -exact}
     return [replace(x, expr=cast("sp.Expr", x.expr.xreplace(table))) for x in others] if table else others
+
+
+def _is_value(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line without anything that moves holds with the values of the system, and names what it defines: n = 2
+    where n is l/r."""
+    model = truth.model
+    defined = {d.symbol for d in model.definitions if not d.moving}
+    named = line.expr.free_symbols
+    if line.kind != "equation" or not named & defined or line.expr.has(AppliedUndef, sp.Derivative):
+        return False
+    sizes = [truth.expand(x).xreplace(cast("Any", model.values)) for x in (line.sides or (line.expr, sp.S.Zero))]
+    if not all(x.is_number and x.is_finite for x in sizes):
+        return False
+    left, right = (float(cast("sp.Expr", x)) for x in sizes)
+    return abs(left - right) <= NEAR * max(abs(left), abs(right))
 
 
 def _stated(lines: Sequence[AnsweredLine]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
