@@ -167,6 +167,48 @@ def test_a_velocity_without_its_rate_is_no_slope() -> None:
     assert not _judged(cam(), motion.replace("e sin(phi) phi'", "e sin(phi)") + result)
 
 
+ALONE = r"""$T=\frac12(J+mr^2\sin^2\theta)\dot\theta^2=\frac12\,B\,\dot\theta^2$ and $V=\frac12kr^2\cos^2\theta$. Then
+
+$B\ddot\theta+\frac12B'\dot\theta^2+V'=\tau-c\dot\theta$
+"""
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", ["B", r"\Theta", "B_e", r"M_{\rm eff}", r"m_{\mathrm{red}}"])
+@pytest.mark.parametrize("slope", ["{}'", r"\frac{{d{}}}{{d\theta}}", r"\frac{{\partial {}}}{{\partial\theta}}"])
+def test_names_without_what_they_depend_on(name: str, slope: str) -> None:
+    answer = ALONE.replace("B'", slope.format("@")).replace("B", "@").replace("@", name)
+    assert _judged(yoke(), answer)
+    assert not _judged(yoke(), answer.replace(r"+\frac12", r"-\frac12"))
+
+
+def test_a_rate_with_a_dot_is_no_slope() -> None:
+    assert _judged(yoke(), ALONE.replace(r"B'\dot\theta^2", r"\dot B\dot\theta"))
+    assert not _judged(yoke(), ALONE.replace(r"B'\dot", r"\dot B\dot"))
+
+
+def test_slopes_in_the_steps_before_an_equation() -> None:
+    steps = "dL/dtheta' = I theta'\nd/dt(dL/dtheta') = I theta'' + I' theta'^2\ndL/dtheta = 1/2 I' theta'^2 - V'\n"
+    head, _, result = PLAIN.partition("Q = ")
+    answer = head + steps + "Q = " + result
+    assert _judged(yoke(), answer)
+    for now, wrong in (("^2 - V'", "^2 + V'"), ("= 1/2 I' theta'^2 -", "= I' theta'^2 -"), ("'' + I'", "'' + 1/2 I'")):
+        assert now in answer and not _judged(yoke(), answer.replace(now, wrong))
+
+
+def test_a_speed_of_the_answer_has_a_rate() -> None:
+    answer = PLAIN.replace("I theta'' + 1/2 I' theta'^2 + V' = Q", "w = theta'\nI w' + 1/2 I' w^2 + V' = Q")
+    assert "w'" in answer and _judged(yoke(), answer)
+    for now, wrong in (("+ 1/2 I' w", "- 1/2 I' w"), ("+ V'", "- V'")):
+        assert now in answer and not _judged(yoke(), answer.replace(now, wrong))
+
+
+def test_a_letter_of_an_energy_may_be_a_position_or_a_speed() -> None:
+    for answer in ("V = x'\nm V' = F - b V - k x\n", "V = x\nm x'' + b V' + k V = F\n"):
+        assert _judged(mass(), answer)
+        assert not _judged(mass(), answer.replace("- b V", "+ b V").replace("+ b V'", "- b V'"))
+
+
 MAST = """\
 T = ½·(m·l²/3 + M·b²·cos²(α/2))·α̇² = ½·J(α)·α̇²
 U = m·g·l/2·sin α + 2·M·g·b·sin(α/2)

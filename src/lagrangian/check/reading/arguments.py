@@ -83,15 +83,28 @@ def value_stated(name: str, text: str) -> str | None:
 
 def is_in_chain(name: str, text: str) -> bool:
     """Whether a name stands as the factor of a square in the last side of a chain: T = ½ […] θ'² = ½ I(θ) θ'²."""
-    for last in islice(re.finditer(_LAST_OF_CHAIN.format(re.escape(name)), text), _MAX):
-        before = text[max(0, last.start() - _LONGEST_SIDE) : last.start()]
-        if "=" in _CHAIN_BEGINS.split(before)[-1]:
-            return True
-    return False
+    return any(_goes_on(x) for x in islice(re.finditer(_LAST_OF_CHAIN.format(re.escape(name)), text), _MAX))
+
+
+def names_in_chains(text: str) -> Iterator[str]:
+    """The names of which this is so, as they are written; an index in braces without these."""
+    form = _LAST_OF_CHAIN.format(
+        r"(?P<name>\\?[^\W\d_]\w{0,24}+(?:\{(?:\\(?:rm[ ]?|(?:mathrm|text)\{))?\w{1,20}\}{1,2})?)"
+    )
+    for last in islice(re.finditer(form, text), _MAX):
+        if _goes_on(last):
+            yield re.sub(r"\\(?:rm|mathrm|text)(?![A-Za-z])[ ]?|[\\{}]", "", last["name"])
+
+
+def _goes_on(last: re.Match[str]) -> bool:
+    """Whether a side has another equals sign before it, in the same sentence."""
+    before = last.string[max(0, last.start() - _LONGEST_SIDE) : last.start()]
+    return "=" in _CHAIN_BEGINS.split(before)[-1]
 
 
 _LAST_OF_CHAIN = (
-    r"=[ \t]?:?[ \t&]*+(?:(?:½|\(?1[ ]?/[ ]?2\)?|0\.5|\\[dt]?frac[ ]?\{{?[ ]?1[ ]?\}}?[ ]?\{{?[ ]?2(?![\d])[ ]?\}}?)"
+    r"(?:=|≡|\\equiv)[ \t]?:?[ \t&]*+"
+    r"(?:(?:½|\(?1[ ]?/[ ]?2\)?|0\.5|\\[dt]?frac[ ]?\{{?[ ]?1[ ]?\}}?[ ]?\{{?[ ]?2(?![\d])[ ]?\}}?)"
     r"(?:\\[,;!]|\\cdot(?![A-Za-z])|[ \t*·])*+)?{}(?![\w'’′])(?:[ ]?(?:\\left)?\([^()=\n]{{1,24}}\))?"
     r"[^=\n;+−-]{{1,30}}?(?:²|(?:\^|\*\*)[ ]?\{{?[ ]?2)"
 )

@@ -130,8 +130,9 @@ def _used_as_names(
 ) -> Iterator[str]:
     """The letters of energies that stand alone in an equation with accelerations, D theta'' = …, or whose rate is
     formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is."""
-    for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
-        kind = None if named is None or named[1] else energy_of(named[0], subjects.model, lhs=True)
+    kinds = [None if x is None or x[1] else energy_of(x[0], subjects.model, lhs=True) for x in first]
+    energies = not {"T", "L"}.isdisjoint(kinds)
+    for k, (named, sides, kind) in enumerate(zip(first, statements, kinds, strict=True)):
         if named is None or kind is None or subjects.names.scope.meanings(named[0])[0]:
             continue
         written = str(named[0])
@@ -147,10 +148,19 @@ def _used_as_names(
                     yield key(written)
                 continue
             alone = only_name(others[0])
-            names = (x for side in others for x in names_in(side))
-            used = any(x == written and not (changing and kind == "V") for x, changing in names)  # V' is no value of V
+            used = any(x == written for side in others for x, _ in names_in(side))
+            sloped = kind == "V" and energies and not any(map(subjects.moves, sides[1:]))
+            if sloped and all(n == 1 for side in others for n in _primes_of(written, side)):
+                continue  # V' is the slope of an energy
             if used and (alone is None or alone[0] != written):
                 yield key(written)
+
+
+def _primes_of(written: str, side: Tree) -> Iterator[int]:
+    """The primes behind each place where a name stands in a side."""
+    for tree in side.iter_subtrees():
+        if tree.data == "name" and str(tree.children[0]) == written:
+            yield len(str(tree.children[1] or ""))
 
 
 def _is_used_for_rate(sides: Sequence[Tree], written: str) -> bool:

@@ -11,7 +11,7 @@ from functools import partial
 import sympy as sp
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow, without_lines
-from lagrangian.check.reading.arguments import dependents
+from lagrangian.check.reading.arguments import dependents, names_in_chains
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import LATEX, plainer
@@ -379,6 +379,7 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(name)
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
+    own |= dict.fromkeys(x for x in names_in_chains(text) if not system.known(x) and not system.is_product(x))
     own |= dict.fromkeys(constants_of_deviations(text))
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}

@@ -24,30 +24,39 @@ from lagrangian.check.reading.nodes import Node, names_in
 from lagrangian.check.reading.placeholders import is_placeholder
 from lagrangian.check.reading.stated import ENERGY_NAMES, energy_of
 from lagrangian.check.reading.subjects import Subject
+from lagrangian.check.reading.summed_energies import things_with
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
 _PRIME = re.compile(r"(?:\([^()]{1,20}\))?[ ]?['’′](?!['’′])")
+_BEHIND = re.compile(
+    r"\\?[^\W_]{1,24}+(?:_(?:\w{1,12}+|\{(?:[^{}]|\{[^{}]{0,20}\}){1,30}\}))?[ ]?\}?"
+    r"(?:\([^()]{1,20}\))?[ ]?['’′](?!['’′])"
+)
+r"""A name in LaTeX with one prime behind it: \Theta', M_{\rm e}'."""
 MOST = 200
 """The most terms of a statement whose dots are counted."""
 
 
 @dataclass(frozen=True)
 class _Term:
-    """The dots of a term, if primes of functions are rates and if they are slopes, and whether it has an acceleration
-    and such a prime; a term with something whose dots nobody knows has none."""
+    """The dots of a term, if primes of functions are rates and if they are slopes; whether all dots in it are known, as
+    it has an acceleration or is ∂L/∂θ; whether it has such a prime; and the
+    names whose rates stand in it."""
 
     rated: int = 0
     sloped: int = 0
-    accelerated: bool = False
+    known: bool = False
     primed: bool = False
+    rates: frozenset[str] = frozenset()
 
     def times(self, other: _Term, sign: int = 1) -> _Term:
         return _Term(
             self.rated + sign * other.rated,
             self.sloped + sign * other.sloped,
-            self.accelerated or other.accelerated,
+            self.known or other.known,
             self.primed or other.primed,
+            self.rates | other.rates,
         )
 
 
@@ -60,10 +69,11 @@ def sloped(
 ) -> dict[int, dict[str, str]]:
     """Return the names, by their keys, whose primes are slopes in a statement, by its number.
 
-    These are the names that the answer defines and its potential energies, in equations with accelerations; and where a
-    line says what such a prime is, I' = 2 m a² sin θ cos θ, and no rate stands in its value.
+    These are the names that the answer defines and its potential energies, in equations with accelerations or ∂L/∂θ;
+    and where a line says what such a prime is, I' = 2 m a² sin θ cos θ, and no rate stands in its value.
     """
-    found = {i: own for i, x in enumerate(statements) if (own := _in_equation(x.sides, x.source.text, names))}
+    speeds = _speeds(turned, names)
+    found = {i: own for i, x in enumerate(statements) if (own := _in_equation(x, speeds, names))}
     every = {base: name for own in found.values() for base, name in own.items()}
     for i, (subject, sides) in enumerate(turned) if every else ():
         base = "" if subject is None or subject.token is None else key(undotted(subject.token)[0])
@@ -80,33 +90,51 @@ def _changes(written: str, changing: bool, names: Names) -> bool:
     return changing or bool(undotted(written)[1]) or spelled
 
 
-def _in_equation(sides: Sequence[Tree], text: str, names: Names) -> dict[str, str]:
+def _speeds(turned: Sequence[tuple[Subject | None, Sequence[Tree]]], names: Names) -> dict[str, int]:
+    """The dots of the names that the answer gives values with rates: one of ω = θ'."""
+    found: dict[str, int] = {}
+    for subject, sides in turned:
+        if subject is None or subject.kind != "definition" or subject.order or subject.inverse or len(sides) < 2:
+            continue
+        try:
+            dots = {x.rated for x in _Counted({}, found, names).terms(sides[-1])}
+        except _Unclear:
+            continue
+        if len(dots) == 1 and dots != {0}:
+            found.setdefault(key(str(subject.token)), dots.pop())
+    return found
+
+
+def _in_equation(statement: Statement, speeds: Mapping[str, int], names: Names) -> dict[str, str]:
     """The names whose primes are slopes in an equation, with their spelling; none unless all primes of them are."""
-    own: dict[str, str] = {}
-    rates: set[str] = set()
+    sides, own, rates, accents = statement.sides, dict[str, str](), set[str](), True
     for token in (x for side in sides for x in _primed_in(side)):
         base, dots = undotted(token)
-        if dots or not has_prime(token, text):
+        if key(base) in speeds or names.scope.meanings(base)[0]:
+            accents = accents and not has_prime(token, statement.source.text)
+            continue
+        if dots or not has_prime(token, statement.source.text):
             rates.add(key(base))  # dI/dt
         elif _weight(base, names) is not None:
             own[key(base)] = base
     if not own or rates & own.keys():
         return {}
     try:
-        terms = [term for side in sides for term in _Counted(own, names).terms(side)]
+        terms = [term for side in sides for term in _Counted(own, speeds, names).terms(side)]
     except _Unclear:
         return {}
-    whole = {x.sloped for x in terms if x.accelerated and not x.primed}
+    whole = {x.sloped for x in terms if x.known and not x.primed}
     primed = [x for x in terms if x.primed]
-    if len(whole) != 1 or not primed:
-        return {}
+    if len(whole) != 1 or not primed or (not accents and any(len(x.rates) > 1 for x in primed)):
+        return {}  # I' r' θ', where rates have primes
     (dots,) = whole
     return own if all(x.sloped == dots != x.rated for x in primed) else {}
 
 
 def has_prime(token: Token, text: str) -> bool:
     """Whether one prime is written behind a name in the text of its statement."""
-    return _PRIME.match(text, (token.start_pos or 0) + len(token)) is not None
+    start = token.start_pos or 0
+    return any(x is not None for x in (_PRIME.match(text, start + len(token)), _BEHIND.match(text, start)))
 
 
 def _primed_in(side: Tree) -> list[Token]:
@@ -127,8 +155,8 @@ def _weight(base: str, names: Names) -> int | None:
 class _Counted:
     """Counts the dots of the terms of a statement, in which some names have primes."""
 
-    def __init__(self, own: Mapping[str, str], names: Names) -> None:
-        self.own, self.names = own, names
+    def __init__(self, own: Mapping[str, str], speeds: Mapping[str, int], names: Names) -> None:
+        self.own, self.speeds, self.names = own, speeds, names
 
     def terms(self, tree: Node) -> list[_Term]:
         """The terms of a tree that is multiplied out; an unclear one raises."""
@@ -158,6 +186,7 @@ class _Counted:
         token, primes = cast("tuple[Token, Token | None]", tree.children)
         base, dots = undotted(token)
         order, weight = len(primes or "") + dots, _weight(base, self.names)
+        weight = self.speeds.get(key(base), weight)
         if order and key(base) in self.own:
             slope = primes is not None and not dots and order == 1
             if not slope:
@@ -168,7 +197,9 @@ class _Counted:
             order = order or max(spelled, default=0)
         else:
             order = order or self.names.scope.meanings(token)[1]
-        return _Term((weight or 0) + order, (weight or 0) + order, order > 1)
+        whole = (weight or 0) + order
+        known = order > 1 or (order > 0 and key(base) in self.speeds)
+        return _Term(whole, whole, known, False, frozenset([key(base)] if whole else []))
 
     def _product(self, of: list[Node]) -> list[_Term]:
         found, sign = [_Term()], 1
@@ -195,18 +226,18 @@ class _Counted:
                 raise _Unclear
             return base[:1]
         term = base[0]
-        return [_Term(exponent * term.rated, exponent * term.sloped, term.accelerated, term.primed)]
+        return [_Term(exponent * term.rated, exponent * term.sloped, term.known, term.primed, term.rates)]
 
     def _rate(self, of: list[Node]) -> list[_Term]:
         inner, order = self.terms(of[0]), int(of[1])
-        return [_Term(x.rated + order, x.sloped + order, x.accelerated or x.rated > 0, x.primed) for x in inner]
+        return [_Term(x.rated + order, x.sloped + order, x.known or x.rated > 0, x.primed, x.rates) for x in inner]
 
     def _partial(self, of: list[Node]) -> _Term:
         what, by = str(of[0]), self.terms(of[1])
         weight = 2 if what in ("T", "V", "L", "ℒ") else _weight(what, self.names)
         if weight is None or len(by) != 1:
             raise _Unclear
-        return _Term(weight - by[0].rated, weight - by[0].sloped)
+        return _Term(weight - by[0].rated, weight - by[0].sloped, what in ("T", "V", "L", "ℒ"))
 
     def _call(self, of: list[Node]) -> list[_Term]:
         if any(x.rated or x.sloped for part in of[1:] for x in self.terms(part)):
@@ -232,7 +263,10 @@ def with_slopes(reader: Meaning) -> bool:
     """Let a reader take the primes of names as slopes where its statement says so, if each of them has one."""
     names = reader.names
     own = names.sloped.get(names.statement, {})
-    if not own or any(_coordinate_of(_value(base, name, names), names) is None for base, name in own.items()):
+    values = {name: _value(base, name, names) for base, name in own.items()}
+    if not own or any(_coordinate_of(x, names) is None for x in values.values()):
+        return False
+    if any(ENERGY_NAMES.get(name) == "V" and not _is_energy(x, names) for name, x in values.items()):
         return False
     reader.slopes = own
     for name in sorted(own.values()):
@@ -247,6 +281,13 @@ def _value(base: str, name: str, names: Names) -> object:
     if base in names.own:
         return names.own[base][1]
     return names.energy(energy_of(name, names.model, lhs=True) or "")
+
+
+def _is_energy(value: object, names: Names) -> bool:
+    """Whether a value has a letter of a stiffness or of a weight, if the system has such letters: V = l θ has none."""
+    things = things_with(names.model, "V")
+    letters = {key(str(x)) for x in bounded.letters(value)} if isinstance(value, sp.Expr) else set[str]()
+    return not things or any(own & letters for own in things)
 
 
 def _coordinate_of(value: object, names: Names) -> sp.Expr | None:
