@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 
+import lagrangian as lg
 from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.derive import Derived
 from lagrangian.read import loads
@@ -200,3 +201,62 @@ def test_the_rows_of_a_table_are_added_to_what_stands_below_it() -> None:
     assert judged(TABLE.replace("m d² sin² φ/4 = ", "")).status.name == "RIGHT"
     for old, new in (("| J", "| 2 J"), ("= m l²", "= 2 m l²"), ("+ m l² φ̇²", "− m l² φ̇²"), ("+ m g", "− m g")):
         assert judged(TABLE.replace(old, new)).status.name == "WRONG"
+
+
+POWERS = """Power balance. w = φ̇ wheel, the bar moves with l sin φ w.
+E = ½ I w², I = J + m l² sin² φ
+I w' + m l² sin φ cos φ w² = τ − c w + m g l sin φ
+"""
+
+
+@pytest.mark.parametrize("words", ["wheel,", "of the wheel,", "crank, from the top;", "for the crank."])
+def test_words_behind_a_rate_say_of_which_body_it_is(words: str) -> None:
+    answer = POWERS.replace("wheel,", words)
+    assert judged(answer).right
+    for old, new in (("− c w", "+ c w"), ("w = φ̇", "w = 2 φ̇"), ("l² sin² φ", "l sin² φ")):
+        assert judged(answer.replace(old, new)).status.name == "WRONG"
+
+
+def test_other_words_behind_a_rate_may_change_it() -> None:
+    with pytest.raises(lg.ParseError):
+        judged(POWERS.replace("φ̇ wheel", "φ̇ twice"))
+
+
+PENDULUM = """
+name = "bob on a rod"
+[coordinates]
+phi = "rod, from the downward vertical"
+[parameters]
+m = "0.7 kg"
+l = "0.7 m"
+g = "9.81 m/s^2"
+[inputs]
+tau = "N*m"
+[points]
+B = ["l*sin(phi)", "-l*cos(phi)"]
+[[particle]]
+name = "bob"
+mass = "m"
+at = "B"
+[[gravity]]
+direction = [0, -1]
+[[torque]]
+value = "tau"
+on = "phi"
+"""
+
+
+@pytest.mark.parametrize("name", ["γ1", "a_B", "aB", "a"])
+@pytest.mark.parametrize("column", ["({} ; {})", "({}, {})", "[{}; {}]"])
+def test_the_components_of_an_acceleration_are_no_list_of_equations(name: str, column: str) -> None:
+    """γ1 = (… ; …) beside the equations says what an acceleration is, not that its components are zero."""
+    components = column.format("l (φ̈ cos φ − φ̇² sin φ)", "l (φ̈ sin φ + φ̇² cos φ)")
+    answer = f"accélérations : {name} = {components}\nPuissances :\nm l² φ̈ + m g l sin φ = τ"
+    found = judged(answer, PENDULUM)
+    assert found.right and [f.line.number for f in found.findings if not f.status.right] == []
+    assert judged(answer.replace("+ m g l", "− m g l"), PENDULUM).status.name == "WRONG"
+
+
+def test_a_list_of_expressions_with_the_name_of_equations_is_still_zero() -> None:
+    assert judged("eqs = [m*l^2*phi'' + m*g*l*sin(phi) - tau, phi'' - phi'']", PENDULUM).right
+    assert not judged("eqs = [m*l^2*phi'' - m*g*l*sin(phi) - tau, phi'' - phi'']", PENDULUM).right

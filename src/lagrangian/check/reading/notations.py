@@ -66,6 +66,7 @@ from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
+from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
 from lagrangian.check.reading.said.stands_for import (
@@ -218,7 +219,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         beside = with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
         starred = with_starred_names(with_derivatives(beside), names.known)
         said = with_stated_values(with_explained_names(starred, taken, lambda name: key(name) in own), taken)
-        said = with_stated_rates(said, of, names.known, sure=True)
+        said = with_rates_of_bodies(with_stated_rates(said, of, names.known, sure=True), lines.model, taken)
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_items(with_forces_by_element(named, taken), text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))

@@ -46,7 +46,7 @@ class PlainDerivatives(PlainConditions):
         start = self.take().start
         self.deeper(start)
         listed = [self.sum()]
-        while self.accept(","):  # (x, y) is a column
+        while self.accept(",", ";"):  # (x, y) is a column, and (x ; y), too
             listed.append(self.sum())
         if not self.accept(closing):
             raise self.stopped(False)

@@ -42,6 +42,8 @@ _NAMED_RATE = re.compile(
     rf"[ \t]*+(?:->|:)\s*+{_NAME}(?:\(t\))?"
 )
 """A rate and the name that an answer has for it: x': v."""
+_OF_POINT = re.compile(r"(?:a|γ|gamma|acc)(?:_\w{1,8}|\d|[A-Z]|\Z)")
+"""What the acceleration of a point is called: γ3 = (−l φ'' sin φ ; z'') has its components."""
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -92,7 +94,7 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     if close < 0 or text[close + 1 : end].partition("#")[0].strip(" \t\n;,.") != (")" if match["call"] else ""):
         return
     name = match["name"]
-    if name is not None and len(re.findall(rf"(?<!\w){name}(?!\w)", text)) > 1:
+    if name is not None and (_OF_POINT.match(name) or len(re.findall(rf"(?<!\w){name}(?!\w)", text)) > 1):
         return
     spans = list(_inner(text, entries_in(text, match.end(), close)))
     written = [text[a:b] for a, b in spans]
