@@ -48,3 +48,34 @@ def test_the_cells_of_a_table_are_judged(table: str, was: str, now: str) -> None
     assert was in table
     assert right(sheet)
     assert not right(sheet.replace(table, table.replace(was, now)))
+
+
+PARTS = """\
+| part | kinetic | potential |
+|:--|:--|:--|
+| cart | 1/2 M x'^2 | – |
+| pole | 1/2 m (x'^2 + 2 l x' theta' cos theta + l^2 theta'^2) + (1/2) J theta'^2 | m g l cos theta |
+"""
+
+
+@pytest.mark.parametrize(
+    "head", ["kinetic | potential", "Kinetic energy T | Potential energy V", "T | V", "E_kin [J] | E_pot [J]"]
+)
+def test_a_table_with_columns_for_the_kinds_of_energies_states_parts(head: str) -> None:
+    table = PARTS.replace("kinetic | potential", head)
+    assert right(f"{table}\n{CART}\n{POLE}")
+    for was, now in (
+        ("1/2 M", "1/3 M"),
+        ("| m g l cos", "| m g l sin"),
+        ("(1/2) J", "(1/3) J"),
+        ("+ 2 l x'", "- 2 l x'"),
+    ):
+        assert was in table
+        assert not right(f"{table.replace(was, now)}\n{CART}\n{POLE}")
+
+
+def test_a_row_of_sums_states_the_whole_energies() -> None:
+    whole = "1/2 (M + m) x'^2 + m l x' theta' cos theta + 1/2 (J + m l^2) theta'^2"
+    table = f"{PARTS}| total | {whole} | m g l cos theta |\n"
+    assert right(f"{table}\n{CART}\n{POLE}")
+    assert not right(f"{table.replace('1/2 (J', '1/3 (J')}\n{CART}\n{POLE}")

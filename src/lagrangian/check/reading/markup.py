@@ -23,6 +23,12 @@ _BOLD_LINE = re.compile(
 """A whole line that is bold, which may hold stars of products."""
 _ITALIC = re.compile(r"(?<=[\s(,])(\*|_)(?=[^\W\d_]{3})([^\W\d_]+(?:[ -][^\W\d_]+[\d₀-₉]?){0,8}:?)\1(?=[\s.,;:)!?]|\Z)")
 """A word or some between single marks: *clockwise*, *for θ1*."""
+_ITALIC_NAME = re.compile(
+    r"(?:(?<=^)|(?<=^[-+•*][ ])|(?<=[,;:(.][ ])|(?<=(?<!\w)and[ ]))(\*|_)([^\W\d_][\w\u0307\u0308]{0,12}['’′]{0,2})\1"
+    r"(?=(?:\([^()\n]{1,12}\))?[ \t]{0,3}:?=(?![=>]))",
+    re.MULTILINE,
+)
+"""A name between single marks in front of its value: *p* = m x'."""
 _ITALIC_REMARK = re.compile(r"(?<=[ \t])(\*|_)(\([^\W\d_]{2}[^()*=\n]{1,60}\))\1(?=[ \t.,;]*$)", re.MULTILINE)
 """A remark in brackets between single marks at the end of a line: *(divided by 2)*."""
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
@@ -74,7 +80,7 @@ def without_markup(text: str) -> str:
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     text = _BOLD_LINE.sub(lambda m: f"{m['lead']}  {m['line']}  ", text)
     text = _STATED_CODE.sub(lambda m: f";{m['code']};", text)
-    for form in (_BOLD, _CODE, _ITALIC, _ITALIC_REMARK):
+    for form in (_BOLD, _CODE, _ITALIC, _ITALIC_NAME, _ITALIC_REMARK):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
 

@@ -38,6 +38,7 @@ from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
+from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -64,6 +65,7 @@ from lagrangian.check.reading.said.derivative_legends import (
 )
 from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
+from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
@@ -178,7 +180,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text) if LATEX.search(text) else without_leading_words(_copied(text), taken)
+    copied = _copied(text)
+    if not LATEX.search(text):
+        copied = without_anonymous_functions(copied, taken)
+        copied = with_factors_named_behind(without_leading_words(copied, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)

@@ -4,6 +4,7 @@ M = [a, 0; ...⏎ 0, b]              M = [a, 0;  0, b]            a statement of
 np.array([[a, 0],⏎ [0, b]])        np.array([[a, 0],  [0, b]])
 qdd = np.linalg.solve(M, f)        M*qdd = f                    also inv(M) @ f and M.LUsolve(f)
 xdd, ydd = np.linalg.solve(M, f)   M*[xdd; ydd] = f
+qdd = M \\ (f - D*qd)              M*qdd = (f - D*qd)
 M =⏎⏎ [a, 0]⏎ [0, b]               M = [a, 0; 0, b]             what MATLAB prints
 h =⏎⏎  b*dx⏎   k*x                 h = [b*dx; k*x]
 % q = [x; y], M(q)*qdd + h = f     q = [x; y]; M*qdd + h = f    an equation that only a comment states
@@ -43,6 +44,12 @@ _SOLVED = re.compile(
     r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
     re.MULTILINE,
 )
+_DIVIDED = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?P<left>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME})[ \t]*+\\[ \t]*+"
+    rf"(?P<by>{_NAME}|\((?:[^()\n=]|\([^()\n=]{{0,80}}\)){{1,300}}\))(?=[ \t]*+(?:$|[;%]))",
+    re.MULTILINE,
+)
+"""A column divided by a matrix from the left, as in MATLAB."""
 _RETURNED = re.compile(
     rf"^(?P<before>[ \t]*+)return[ \t]++(?=(?:(?:\w{{1,6}}\.){{0,3}}(?:solve|inv)\(|{_NAME}\.(?:inv|LUsolve)\())",
     re.MULTILINE,
@@ -81,7 +88,7 @@ def with_whole_matrices(written: TracedText) -> TracedText:
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
     written = written.sub(_RETURNED, lambda m: f"{m['before']}qdd = ") if given else written
-    return written.sub(_SOLVED, lambda m: _product(m, given)) if given else written
+    return written.sub(_DIVIDED, _multiplied(given)).sub(_SOLVED, lambda m: _product(m, given)) if given else written
 
 
 def with_shown_matrices(written: TracedText) -> TracedText:
@@ -132,6 +139,16 @@ def _arrays(text: str) -> Iterator[Edit]:
         if match.start() >= last and (end := closes(text, match.end() - 1)) > 0:
             last = end
             yield from ((k, k + 1, " ") for k in range(match.end(), end) if text[k] == "\n")
+
+
+def _multiplied(given: set[str]) -> Callable[[re.Match[str]], str]:
+    """What makes of such a quotient the product that equals the column, where the matrix is given."""
+
+    def made(match: re.Match[str]) -> str:
+        of = match["of"]
+        return f"{match['indent']}{of}*{match['left']} = {match['by']}" if of in given else match.group()
+
+    return made
 
 
 def _product(match: re.Match[str], given: set[str]) -> str:

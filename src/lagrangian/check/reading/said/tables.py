@@ -2,6 +2,7 @@ r"""Reads tables of Markdown in which no cell states anything by itself: what st
 
 | T | ½ m ẋ² |                                T = ½ m ẋ²          a quantity and its value; so Q_x, ∂L/∂ẋ, d/dt
 | q | ∂L/∂q̇ | d/dt | Q |   | x | m ẋ | m ẍ | F |     ∂L/∂x' = m ẋ   d/dt(∂L/∂x') = m ẍ   Q_x = F
+| part | kinetic | potential |   | plate | ½ M ẏ² | M g y |   T_plate = ½ M ẏ²   V_plate = M g y
 | | x | y |   | ∂L/∂q̇ | m ẋ | m ẏ |                 ∂L/∂x' = m ẋ   ∂L/∂y' = m ẏ
 """
 
@@ -25,11 +26,15 @@ _LABEL = re.compile(r"[\w \t.,:()/*'’-]{0,60}")
 """What may stand in front of the statement of a row."""
 _NOTHING = frozenset(["", "-", "–", "—", "−", "/", "none", "keine"])
 _ENERGIES = {
-    "T": ("T", "T*", "T^*", "kinetic", "kinetic energy", "Ekin", "E_kin", "kinetisch", "kinetische Energie"),
-    "V": ("V", "U", "potential", "potential energy", "Epot", "E_pot", "potentiell", "potentielle Energie"),
+    "T": ("T", "T*", "T^*", "kinetic", "kinetic energy", "Ekin", "E_kin", "kinetisch", "kinetische Energie", "KE"),
+    "V": ("V", "U", "potential", "potential energy", "Epot", "E_pot", "potentiell", "potentielle Energie", "PE"),
     "D": ("dissipation", "Rayleigh", "Dissipation"),
 }
 _KINDS = {word: kind for kind, words in _ENERGIES.items() for word in words}
+_SUM = re.compile(r"[Tt]otal|[Ss]um|[Ss]umme|[Gg]esamt|[Tt]ogether|Σ|∑|\\\\[Ss]um|\\\\Sigma")
+"""What stands in front of a row that is the sum of those above."""
+_LONG = 400
+"""The most characters of an energy in a cell."""
 _DOT = r"(?P<dot>\\dot\b[ ]?)?"
 _SLOPE = re.compile(
     r"(?P<rate>(?:d[ ]?/[ ]?dt|\\[dt]?frac\{d\}\{dt\})[ ]?[(\[]?)?"
@@ -125,6 +130,8 @@ def _made(
     width = len(rows[0])
     if width < 2 or any(len(row) != width for row in rows):
         return None
+    if (parts := _parts(rows, moves, taken)) is not None:
+        return parts
     if width == 2:
         named = [[_stated(row[0], row[1], taken)] for row in rows]
         return [[x for x in said if x] for said in named] if sum(bool(x[0]) for x in named) > 1 else None
@@ -137,6 +144,44 @@ def _made(
         kinds = [_quantity(x) for x in head[1:]]
         said = [[*_listed(kinds, [row[0]] * (width - 1), row[1:], None)] for row in body]
         return [[], *said] if any(said) else None
+    return None
+
+
+def _parts(
+    rows: Sequence[Sequence[str]], moves: Callable[[str], bool], taken: Callable[[str], bool]
+) -> list[list[str]] | None:
+    """The energies of a table with a column for each kind and a row for each body or spring, as parts of them by its
+    name, and its row of sums as the whole; None for another table."""
+    head, body = rows[0], rows[1:]
+    kinds = [_kind_in(cell, taken) for cell in head[1:]]
+    cells = [x for row in body for x in row[1:] if x not in _NOTHING]
+    if None in kinds or len(set(kinds)) < len(kinds) or any(moves(_name(row[0])) for row in body):
+        return None
+    if _kind_in(head[0], taken) or not cells or not all(_is_formula(x, taken) and len(x) <= _LONG for x in cells):
+        return None
+    if not all(_LABEL.fullmatch(row[0]) or _SUM.fullmatch(row[0]) for row in body):
+        return None
+    made: list[list[str]] = [[]]
+    used: set[str] = set()
+    for k, row in enumerate(body, 1):
+        words = "_".join(re.findall(r"[^\W_]+", row[0])) or str(k)
+        label = words if words not in used else f"{words}_{k}"
+        used.add(label)
+        latex = "\\" in "".join(row[1:])
+        named = rf"_{{\mathrm{{{label}}}}}" if latex else f"_{label}"
+        named = "" if _SUM.fullmatch(row[0]) else named
+        stated = [(kind, x) for kind, x in zip(kinds, row[1:], strict=True) if x not in _NOTHING]
+        made.append([_statement(f"{kind}{named}", x, latex=latex) for kind, x in stated])
+    return made
+
+
+def _kind_in(cell: str, taken: Callable[[str], bool]) -> str | None:
+    """The kind of the energies in a column, by its head: kinetic, Kinetic energy T, E_kin [J], $T$."""
+    bare = re.sub(r"[ ]?[\[(][^()\[\]]{0,20}[\])]\Z", "", cell).replace("$", "").replace("\\", "")
+    spoken = re.sub(r"(?<=[a-z]{4})[ ,:]{1,3}[A-Z]\*?\Z", "", bare)
+    for word in (bare, spoken, spoken[:1].lower() + spoken[1:]):
+        if (kind := _KINDS.get(word)) is not None and not taken(word.rstrip("*^")):
+            return kind
     return None
 
 
