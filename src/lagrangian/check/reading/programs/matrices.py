@@ -145,8 +145,10 @@ def _multiplied(given: set[str]) -> Callable[[re.Match[str]], str]:
     """What makes of such a quotient the product that equals the column, where the matrix is given."""
 
     def made(match: re.Match[str]) -> str:
-        of = match["of"]
-        return f"{match['indent']}{of}*{match['left']} = {match['by']}" if of in given else match.group()
+        of, left = match["of"], match["left"]
+        if of not in given or not any(stem in COLUMNS or stem in given for _, stem in spelled_rates(left)):
+            return match.group()  # accelerations of any name
+        return f"{match['indent']}{of}*{left} = {match['by']}"
 
     return made
 
