@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -32,6 +33,8 @@ def step_title(step: int) -> str:
     return title if title.startswith("Lagrang") else title[:1].lower() + title[1:]
 
 
+_IN_LINE = re.compile(r"In line (\d{1,6})\b")
+"""How words begin that speak of one line."""
 MOST_SAID_FIRST = 2
 """The most terms that are named where it is said that only this line is wrong."""
 
@@ -301,7 +304,10 @@ def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
     ledgers = {0: (2, 3, 6), 1: (2, 3, 6), 4: (2, 3), 5: (2, 3)}.get(mistake.step, (mistake.step,))
     others = {(m.element, m.step) for m in verdict.mistakes if m is not mistake and m.element}
     found: list[str] = []
+    own = _IN_LINE.match(str(mistake.what))
     for f in verdict.findings:
+        if own is not None and f.line.number != int(own[1]):
+            continue
         elsewhere = f.line.kind == "equation" and mistake.coordinate is not None and f.coordinate != mistake.coordinate
         if f.follows or elsewhere:
             continue

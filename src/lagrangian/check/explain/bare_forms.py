@@ -1,4 +1,4 @@
-"""What holds in general, L = T − V and d/dt ∂L/∂θ̇ − ∂L/∂θ = Ξ_θ, is not called wrong below a wrong energy."""
+"""What holds in general, d/dt ∂L/∂θ̇ − ∂L/∂θ = Ξ_θ, is not called wrong below a wrong energy."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from lagrangian.read.letters import key
 
 _SLOPE = re.compile(r"∂|\\(?:partial|pdv|dv)\b|\\frac\s?\{\s?d|\bd\s?/\s?d", re.ASCII)
 """What a derivative in such a line is written with."""
-_DIFFERENCE = re.compile(r"[^=]{1,20}=\s{0,3}T\*?\s{0,3}[-−–]\s{0,3}[VU]\W{0,6}")
-"""L = T − V."""
 
 
 def without_bare_forms(truth: Reference, verdict: Verdict) -> Verdict:
@@ -28,6 +26,4 @@ def _is_bare(finding: Finding, given: set[str]) -> bool:
     line = finding.line
     if finding.status is not Status.WRONG or not finding.follows or line.names & given:
         return False
-    if line.kind == "L":
-        return _DIFFERENCE.fullmatch(line.text.strip(" $")) is not None
     return line.kind == "equation" and "=" in line.text and _SLOPE.search(line.text) is not None
