@@ -117,3 +117,25 @@ def test_a_label_adds_bodies_by_their_letters() -> None:
     labelled = f"cart + B:   {written[0]}\nrod and B:  {written[1]}"
     assert cart().check(labelled).right
     assert not cart().check(labelled.replace("= 0", "= m g l")).right
+
+
+def test_an_angular_momentum_called_d_is_no_dissipation() -> None:
+    momentum = "Along the rail: D = (M + m) x' + m l phi' cos phi\n"
+    written = equations("cos phi", "sin phi", "c")
+    assert cart().check(momentum + written).right
+    other = cart().check(momentum.replace("m l", "2 m l") + written)
+    assert not any(f.line.number == 1 for f in other.findings)
+    assert any("D = (M + m)" in str(note) for note in other.notes)
+    assert not cart().check("D = c x'/2\n" + written).right
+
+
+def test_a_coordinate_in_place_of_another_is_related_before_a_comma() -> None:
+    said = "Instead of x I use z, the stretch from the length d: x = M l/m + z, so x' = z', x'' = z''.\n"
+    rows = equations("cos phi", "sin phi", "c").replace("x", "z").replace("k z", "k (z + M l/m)")
+    assert cart().check(said + rows).right
+    assert not cart().check(said + rows.replace("k (z + M l/m)", "k z")).right
+
+
+def test_a_name_below_a_bar_is_asked_about_and_is_no_error_of_ours() -> None:
+    with pytest.raises(lg.ParseError):
+        cart().check(equations("cos phi", "sin phi", "c").replace("k x", "k x/q^2").replace("g S", "g S/q"))

@@ -163,6 +163,8 @@ def _some_value_fits(truth: Reference, lines: Sequence[AnsweredLine], symbol: sp
         if line.kind != "equation" or not line.expr.has(symbol):
             continue
         exprs = [cast("sp.Expr", line.expr.xreplace({symbol: sp.Integer(k)})) for k in range(3)]
+        if any(x.has(sp.zoo, sp.nan, sp.oo) for x in exprs):
+            return True  # divided by it
         zero, one, two = (CompiledExpressions([x]).at(truth.states, truth.accelerations)[0] for x in exprs)
         slope = one - zero
         scale = np.abs(zero).max() + np.abs(slope).max()

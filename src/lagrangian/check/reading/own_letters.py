@@ -47,7 +47,7 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if own and (moving[k] or fixed or any(key(x) in rates for x in listed)):
             found.add(POWER)
         if moving[k]:
-            found |= {key(str(named[0]))} if kind == "D" and _is_force_of_damper(sides) else set()
+            found |= {key(str(named[0]))} if kind == "D" and _is_no_dissipation(sides, listed, subjects) else set()
             continue
         listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
         others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
@@ -75,6 +75,18 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         ):
             found.add(key(str(named[0])))
     return frozenset(found)
+
+
+def _is_no_dissipation(sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects) -> bool:
+    """Whether a value is the force of a damper, or holds masses and no square of a rate, as an angular momentum."""
+    momentum = _is_heavy(listed, subjects) and not any(map(_squares_rates, sides[1:]))
+    return _is_force_of_damper(sides) or momentum
+
+
+def _is_heavy(listed: Sequence[str], subjects: Subjects) -> bool:
+    """Whether a mass or a moment of inertia is among names."""
+    heavy = {x for body in subjects.model.bodies for x in inertia_letters(body, lengths=False)}
+    return bool(heavy & {key(name) for x in listed for name in subjects.names.scope.meanings(x)[0]})
 
 
 def _is_force_of_damper(sides: Sequence[Tree]) -> bool:
@@ -120,9 +132,7 @@ def _is_energy(named: tuple[Token, int] | None, sides: Sequence[Tree], letter: s
 
 def _may_be_kinetic(sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects) -> bool:
     """Whether a square or an inertia stands in a value, as in an energy without its dots: K = 1/2 (M + m) x^2."""
-    heavy = {x for body in subjects.model.bodies for x in inertia_letters(body, lengths=False)}
-    meant = {key(name) for x in listed for name in subjects.names.scope.meanings(x)[0]}
-    return any(map(_squares, sides)) or bool(heavy & meant)
+    return any(map(_squares, sides)) or _is_heavy(listed, subjects)
 
 
 def _used_as_names(

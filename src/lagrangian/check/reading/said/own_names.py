@@ -50,7 +50,7 @@ _STANDS = (
 )
 _IS = r"(?P<stands>denotes|means|is|bezeichnet|bedeutet|ist)"
 _LINK = r"[ \t\n]{0,9}(?:=|:|[–—-]|\bis\b|\bist\b|\bfor\b|\bfür\b|\bdenotes\b|\bbezeichnet\b)[ \t\n]{1,9}"
-_GIVEN = re.compile(r"(?<![\w*/+^-])\\?(?P<left>[^\W\d]\w{0,15})[ \t]*=(?=(?P<right>[^=\n;]{1,80}))")
+_GIVEN = re.compile(r"(?<![\w*/+^-])\\?(?P<left>[^\W\d]\w{0,15})[ \t]*=(?=(?P<right>[^=\n;,]{1,80}))")
 _ANY_NAME = re.compile(r"\\?[^\W\d]\w{0,15}")
 _REST = r"(?P<rest>[^\0]{1,160})\Z"
 
