@@ -187,6 +187,6 @@ def _squares(side: Tree) -> bool:
 
 def _squares_rates(side: Tree) -> bool:
     """Whether a power of a rate stands in a tree."""
-    powers = (x for x in side.iter_subtrees() if x.data == "power" and len(x.children) > 1)
+    powers = (x for x in side.iter_subtrees() if x.data in ("power", "postfix") and len(x.children) > 1)
     bases = (x.children[0] for x in powers)
     return any(changing for base in bases if isinstance(base, Tree) for _, changing in names_in(base))

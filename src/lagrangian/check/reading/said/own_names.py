@@ -219,7 +219,8 @@ def _is_related(text: str, letter: DeclaredLetter) -> bool:
     same = {key(letter.own), key(letter.new)}
     for match in _GIVEN.finditer(text):
         names = {key(undotted(word.lstrip("\\"))[0]) for word in _ANY_NAME.findall(match["right"])}
-        if key(match["left"]) in same and len(names) > 1 and same & names == same - {key(match["left"])}:
+        formula = len(names) > 1 or re.search(r"[-+−*/\d]", match["right"]) is not None
+        if key(match["left"]) in same and formula and same & names == same - {key(match["left"])}:
             return True
     return False
 
