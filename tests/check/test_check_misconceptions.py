@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
+from small_systems import loop
 
 import built_in
 import lagrangian as lg
@@ -188,7 +189,7 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
         "planar-quadrotor",
         "magnetic-levitation",
     ]
-    for derivation in (*map(derived, chosen), on_a_turntable()):
+    for derivation in (*map(derived, chosen), on_a_turntable(), loop()):
         ingredients = Ingredients(derivation)
         for module in MISCONCEPTIONS:
             for variant in module.wrong(ingredients):

@@ -265,6 +265,12 @@ def test_a_mass_and_a_stiffness_of_a_chain(now: str, wrong: str) -> None:
     assert now in RACK and not _judged(rack(), RACK.replace(now, wrong))
 
 
+def test_a_chain_may_go_on_in_another_line() -> None:
+    answer = PLAIN.replace(" = 1/2 I(theta)", "\n  = 1/2 I(theta)")
+    assert _judged(yoke(), answer)
+    assert not _judged(yoke(), answer.replace("+ 1/2 I'", "- 1/2 I'"))
+
+
 def test_a_slope_of_an_energy_beside_an_acceleration() -> None:
     answer = "T = 1/2 m x'^2\nV = 1/2 k x^2\nm x'' + V' = F - b x'\nm x'' + b x' + k x = F\n"
     assert _judged(mass(), answer)

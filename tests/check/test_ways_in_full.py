@@ -6,29 +6,8 @@ Oracle: by hand, a winch draws the rope r φ into the loop in which a block hang
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-
-import lagrangian as lg
-
-
-@cache
-def loop() -> lg.Derivation:
-    """A winch, a block in the loop of its rope, and a load on a spring and a damper below."""
-    s = lg.System("loop")
-    phi, w = s.coordinates("phi w")
-    J, r, m, I, a, M, g, k, c = s.parameters("J r m I a M g k c")
-    s.rigid_body(mass=1, inertia=J, at=s.origin, frame=s.frame(phi, name="winch"), name="winch")
-    turned = s.frame(r * phi / (2 * a), name="block")
-    s.rigid_body(mass=m, inertia=I, at=s.point("B", (0, r * phi / 2)), frame=turned, name="block")
-    s.particle(M, at=s.point("W", (1, w)), name="load")
-    s.gravity(direction=(0, -1), g=g)
-    s.spring(k, deflection=r * phi / 2 - w, name="hook")
-    s.damper(c, deflection=r * phi / 2 - w, name="guide")
-    s.torque(s.input("u"), on=phi, name="motor")
-    return s.derive()
-
+from small_systems import loop
 
 ROWS = """(J + (m + {inertia}) ({n} r)^2) phi'' + {n} m g r + {k} {n} r ({n} r phi - w) + c {n} r ({n} r phi' - w') = u
 M w'' - k ({n} r phi - w) - c ({n} r phi' - w') + M g = 0"""

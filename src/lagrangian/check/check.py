@@ -57,7 +57,7 @@ from lagrangian.check.names.amounts_said import judged_with_amounts
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
-from lagrangian.check.names.values_at_rest import without_constants
+from lagrangian.check.names.values_at_rest import without_balanced_weights
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.reference import Reference, truth_of
@@ -132,7 +132,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
             verdict = with_sides(with_terms_as_written(truth, verdict))
             verdict = with_fitting_advice(truth, said.lines, with_terms_as_they_stand(truth, verdict))
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
-            verdict = without_constants(truth, said.lines, verdict)
+            verdict = without_balanced_weights(truth, said.lines, verdict)
         verdict = without_shared_signs(
             said_in_numbers(truth, in_own_names(truth, without_made_names(written), verdict))
         )

@@ -54,8 +54,11 @@ def _with_absent(verdict: Verdict) -> Verdict:
     if any(m.element is None for m in told):
         return verdict
     found: dict[str, tuple[Finding, TermDifference]] = {}
+    right = {f.coordinate for f in verdict.findings if f.line.kind == "equation" and f.status.right}
     for f in open_findings(verdict):
-        for d in f.differences if f.line.kind == "equation" and f.coordinate is not None else ():
+        if f.line.kind != "equation" or f.coordinate in {None, *right}:
+            continue  # or it is compared with what another line says
+        for d in f.differences:
             own = {o.element for o in d.origins}
             if d.kind == "missing" and len(own) == 1 and not letters_in(d.term) <= letters_in(f.line.expr):
                 found.setdefault(own.pop(), (f, d))

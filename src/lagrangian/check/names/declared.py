@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.names.spelling import may_be_right
-from lagrangian.check.names.values_at_rest import constants_of_deviations, equations_at_rest, with_work_at_rest
+from lagrangian.check.names.values_at_rest import constants_subtracted, equations_at_rest, with_work_at_rest
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import is_rounded
 from lagrangian.check.verdict import AnsweredLine
@@ -65,7 +65,7 @@ def declared(truth: Reference, lines: Sequence[AnsweredLine]) -> Declared:
     """Return the lines with implicit definitions and speeds written out, and what is assumed about parameters."""
     found, table = _implicit(truth, lines)
     found = tuple(_put(line, table) for line in found)
-    at_rest = {x: cast("sp.Expr", v.xreplace(table)) for x, v in constants_of_deviations(truth, lines).items()}
+    at_rest = {x: cast("sp.Expr", v.xreplace(table)) for x, v in constants_subtracted(truth.model, lines).items()}
     if at_rest:
         found = with_work_at_rest(truth, found, at_rest, lambda some: may_be_right(truth, some))
     speeds = _stated_speeds(truth, found)

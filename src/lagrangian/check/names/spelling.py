@@ -48,7 +48,7 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
     lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
     known = {p.symbol for p in truth.model.parameters} | {time}
     used = _constants(lines)
-    unknown = sorted(used - known - set(values_at_rest(truth, lines).values()), key=str)
+    unknown = sorted(used - known - set(values_at_rest(truth.model, lines).values()), key=str)
     if not unknown:
         return Spelling(lines, notes)
     free = sorted(known - used - {time} - truth.values.keys(), key=str)

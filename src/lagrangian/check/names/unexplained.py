@@ -58,7 +58,7 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     moving = _moving(derivation.model, lines, answer)
     told = answer.mentioned
     asked = [u for u in asked if u not in moving and (u.name in told or not _is_known(u, derivation.model, lines))]
-    at_rest = set(values_at_rest(truth_of(derivation), lines).values())
+    at_rest = set(values_at_rest(derivation.model, lines).values())
     asked = [u for u in asked if u.symbol not in at_rest and any(x.expr.has(u.symbol) for x in lines)]
     asked = [u for u in asked if not _is_gravity(u, derivation.model)]
     last = not any(u.name in told for u in asked) and _is_last(derivation, lines, asked, answer.described)

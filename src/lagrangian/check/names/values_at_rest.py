@@ -14,30 +14,31 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
+from lagrangian.model import Model
 
 
-def values_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Symbol]:
+def values_at_rest(model: Model, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Symbol]:
     """Return the names that an answer gives to values of coordinates and inputs, of which the deviations have names."""
-    known = {p.symbol for p in truth.model.parameters}
-    found = constants_of_deviations(truth, lines)
+    known = {p.symbol for p in model.parameters}
+    found = constants_subtracted(model, lines)
     return {x: own for x, own in found.items() if isinstance(own, sp.Symbol) and own not in known}
 
 
 def equations_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """Return what is 0 where a system rests at the values of which an answer names the deviations; none without."""
-    found = constants_of_deviations(truth, lines)
-    named = values_at_rest(truth, lines)
-    if truth.derivation.multipliers or not any(c.symbol in named for c in truth.model.coordinates):
+    model = truth.model
+    found, named = constants_subtracted(model, lines), values_at_rest(model, lines)
+    if truth.derivation.multipliers or not any(c.symbol in named for c in model.coordinates):
         return []
-    rest: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
-    rest |= {c.symbol: found.get(c.symbol, c.symbol) for c in truth.model.coordinates}
-    rest |= {u.symbol: found.get(u.symbol, sp.S.Zero) for u in truth.model.inputs}
+    rest: dict[Any, Any] = {x: sp.S.Zero for c in model.coordinates for x in (c.rate, c.acceleration)}
+    rest |= {c.symbol: found.get(c.symbol, c.symbol) for c in model.coordinates}
+    rest |= {u.symbol: found.get(u.symbol, sp.S.Zero) for u in model.inputs}
     return [cast("sp.Expr", row.xreplace(rest)) for row in truth.rows]
 
 
-def constants_of_deviations(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
+def constants_subtracted(model: Model, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
     """Return the constants that definitions subtract from coordinates and inputs."""
-    moving = [*(c.symbol for c in truth.model.coordinates), *(u.symbol for u in truth.model.inputs)]
+    moving = [*(c.symbol for c in model.coordinates), *(u.symbol for u in model.inputs)]
     found: dict[sp.Expr, sp.Expr] = {}
     for line in lines:
         for x in moving if line.kind == "definition" and line.expr.is_Add else ():
@@ -75,10 +76,10 @@ def with_work_at_rest(
     return put if fits([x for x in put if x.kind in ("V", "L")]) else lines
 
 
-def without_constants(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+def without_balanced_weights(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on an answer in deviations from rest, in which a wrong term is told without the weight that is
     balanced at rest by what it should be: k (z − y) is, written out, k (z₀ − y₀), too."""
-    if verdict.right or not values_at_rest(truth, lines):
+    if verdict.right or not values_at_rest(truth.model, lines):
         return verdict
     findings: list[Finding] = []
     for f in verdict.findings:

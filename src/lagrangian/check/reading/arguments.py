@@ -99,16 +99,19 @@ def names_in_chains(text: str) -> Iterator[str]:
 def _goes_on(last: re.Match[str]) -> bool:
     """Whether a side has another equals sign before it, in the same sentence."""
     before = last.string[max(0, last.start() - _LONGEST_SIDE) : last.start()]
+    before = before if "\\" in last.string else _NEW_LINE.split(before)[-1]
     return "=" in _CHAIN_BEGINS.split(before)[-1]
 
 
 _LAST_OF_CHAIN = (
     r"(?:=|≡|\\equiv)[ \t]?:?[ \t&]*+"
     r"(?:(?:½|\(?1[ ]?/[ ]?2\)?|0\.5|\\[dt]?frac[ ]?\{{?[ ]?1[ ]?\}}?[ ]?\{{?[ ]?2(?![\d])[ ]?\}}?)"
-    r"(?:\\[,;!]|\\cdot(?![A-Za-z])|[ \t*·])*+)?{}(?![\w'’′])(?:[ ]?(?:\\left)?\([^()=\n]{{1,24}}\))?(?![ ]?\(\[)"
+    r"(?:\\[,;!]|\\cdot(?![A-Za-z])|[ \t*·])*+)?{}(?![\w'’′])(?:[ ]?(?:\\left)?\([^()=\n]{{1,24}}\))?"
     r"[^=\n;+−-]{{1,30}}?(?:²|(?:\^|\*\*)[ ]?\{{?[ ]?2)"
 )
 _CHAIN_BEGINS = re.compile(r"[$;]|\n[ \t]*\n|\\[\[\]]|[.;,][ ]")
+_NEW_LINE = re.compile(r"\n(?![ \t]*+(?:=|\Z))")
+"""A line of plain text that does not go on with another side."""
 _LONGEST_SIDE = 600
 """How much of a chain before its last side is looked at."""
 
