@@ -176,3 +176,18 @@ def loop() -> lg.Derivation:
     s.damper(c, deflection=r * phi / 2 - w, name="guide")
     s.torque(s.input("u"), on=phi, name="motor")
     return s.derive()
+
+
+@cache
+def two_carts(*, between: bool) -> lg.Derivation:
+    """Two carts on springs in a row, a push on the second, and a damper between them or of the first alone."""
+    s = lg.System("two carts")
+    x, y = s.coordinates("x y")
+    m, n, k, c, b = s.parameters("m n k c b")
+    for mass, q, name in ((m, x, "first"), (n, y, "second")):
+        s.particle(mass, at=s.point(name, (q, 0)), name=name)
+    s.spring(k, deflection=x, name="outer")
+    s.spring(c, deflection=y - x, name="inner")
+    s.damper(b, deflection=y - x if between else x, name="between" if between else "ground damper")
+    s.force(s.input("F"), deflection=y, name="push")
+    return s.derive()

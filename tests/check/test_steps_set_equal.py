@@ -5,29 +5,14 @@ Oracle: two carts between a wall and a push, with their energies, forces and equ
 
 from __future__ import annotations
 
-from functools import cache
+from functools import partial
 
 import pytest
+from small_systems import two_carts
 
-import lagrangian as lg
 from lagrangian.check.verdict import Verdict
 
-
-@cache
-def carts() -> lg.Derivation:
-    """A cart on a spring with a damper to the ground, a second one on a spring to the first, and a push."""
-    s = lg.System("two carts")
-    x, y = s.coordinates("x y")
-    m, n, k, c, b = s.parameters("m n k c b")
-    for mass, q, name in ((m, x, "first"), (n, y, "second")):
-        s.particle(mass, at=s.point(name, (q, 0)), name=name)
-    s.spring(k, deflection=x, name="outer")
-    s.spring(c, deflection=y - x, name="inner")
-    s.damper(b, deflection=x, name="ground damper")
-    s.force(s.input("F"), deflection=y, name="push")
-    return s.derive()
-
-
+carts = partial(two_carts, between=False)
 ENERGIES = "T = m x'^2/2 + n y'^2/2\nV = k x^2/2 + c (y - x)^2/2\n"
 STEPS = """\
 Step 5  x: m x'' + k x {sign} c (y - x)

@@ -5,30 +5,16 @@ Oracle: two carts on springs between a wall and a damper, and a disc with a bob,
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 
 import sympy as sp
+from small_systems import two_carts
 
 import lagrangian as lg
 from lagrangian.check.verdict import Finding
 from lagrangian.model import time
 
-
-@cache
-def carts() -> lg.Derivation:
-    """Two carts, a spring to the wall, a spring and a damper between them, a force on the second."""
-    s = lg.System("two carts")
-    x, y = s.coordinates("x y")
-    m, n, k, c, b = s.parameters("m n k c b")
-    for mass, q, name in ((m, x, "first"), (n, y, "second")):
-        s.particle(mass, at=s.point(name, (q, 0)), name=name)
-    s.spring(k, deflection=x, name="outer")
-    s.spring(c, deflection=y - x, name="inner")
-    s.damper(b, deflection=y - x, name="between")
-    s.force(s.input("F"), deflection=y, name="push")
-    return s.derive()
-
-
+carts = partial(two_carts, between=True)
 ENERGIES = "T = m x'^2/2 + n y'^2/2\nV = k x^2/2 + c (y - x)^2/2\n"
 DAMPED = "m x'' + k x - c (y - x) - b (y' - x') = 0\nn y'' + c (y - x) + b (y' - x') = F"
 

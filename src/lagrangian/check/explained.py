@@ -63,11 +63,11 @@ def _with_combinations(
     own = [x.finding for x in meant]
     lines = [x for x in spelling.lines if not any(x is f.line for f in own)]
     others = [f for f in verdict.findings if not any(f is x for x in own)]
-    wrong = any(f.status is Status.WRONG and not f.follows for f in others)
+    wrong = any(f.is_open for f in others)
     named = mistakes(truth, lines, others) if wrong else NamedMistakes()
     told = with_bodies(truth, others, named.told)
     first = min(f.line.number for f in own)
-    above = any(f.line.number < first for f in others if f.status is Status.WRONG and not f.follows)
+    above = any(f.line.number < first for f in others if f.is_open)
     terms = tuple(m for x in meant for m in x.mistakes)
     listed = (*told, *terms) if above else (*terms, *told)
     return replace(verdict, mistakes=listed, notes=notes, sure=named.sure)

@@ -63,7 +63,7 @@ def slopes_of(truth: Reference, expr: sp.Expr) -> dict[Any, SlopeNamed]:
     found: dict[Any, SlopeNamed] = {}
     for form in expr.atoms(sp.Derivative, AppliedUndef) & known.keys():
         kind, orders = known[form]
-        energy = dissipation(truth) if kind == "D" else {"T": truth.T, "V": truth.V, "L": truth.L}[kind]
+        energy = dissipation(truth) if kind == "D" else truth.energies[kind]
         found[form] = SlopeNamed(kind, orders, bounded.diff(energy, *orders))
     return found
 

@@ -84,7 +84,7 @@ def with_parts_above(truth: Reference, written: str, verdict: Verdict) -> Verdic
 
 
 def _is_open(finding: Finding) -> bool:
-    return finding.status is Status.WRONG and not finding.follows and not finding.clash
+    return finding.is_open and not finding.clash
 
 
 def _is_about(note: str, told: set[str], numbers: set[int]) -> bool:

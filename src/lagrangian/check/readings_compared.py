@@ -15,7 +15,7 @@ ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}
 
 def open_findings(verdict: Verdict) -> list[Finding]:
     """The findings that are wrong and follow from none."""
-    return [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    return [f for f in verdict.findings if f.is_open]
 
 
 def program_of(answer: Answer) -> Answer | None:

@@ -11,11 +11,10 @@ from dataclasses import replace
 import sympy as sp
 
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.terms_alone import WHY
 from lagrangian.check.not_judged import tokens_of
 from lagrangian.check.verdict import Mistake, Verdict
-from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
 OF_PLACES = ("The height of ", "The position of ", "In the height of ", "In the position of ")
@@ -37,15 +36,13 @@ def without_unread_reasons(verdict: Verdict, written: str) -> Verdict:
 
 def _without_reason(mistake: Mistake, unread: list[set[str]]) -> Mistake:
     """A mistake without a reason in where a body is, if a row that was not read has all letters of the term."""
-    parts = mistake.what.parts
-    place = next((k for k, x in enumerate(parts) if isinstance(x, str) and REASON in x), None)
-    if place is None:
+    if (said := parted(mistake)) is None:
         return mistake
-    before, _, after = str(parts[place]).partition(REASON)
-    formulas = [x for x in parts[:place] if isinstance(x, sp.Expr)]
-    if not formulas or not str(text(after, *parts[place + 1 :])).startswith(OF_PLACES):
+    certain, reason = said
+    formulas = [x for x in certain.parts if isinstance(x, sp.Expr)]
+    if not formulas or not str(reason).startswith(OF_PLACES):
         return mistake
     letters = {key(x.func.__name__ if x.is_Function else str(x)) for x in letters_in(formulas[0])}
     if not any(letters <= row for row in unread):
         return mistake
-    return replace(mistake, what=text(*parts[:place], before), why=WHY)
+    return replace(mistake, what=certain, why=WHY)

@@ -60,6 +60,11 @@ class Reference:
         return frozenset([time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))])
 
     @cached_property
+    def energies(self) -> dict[str, sp.Expr]:
+        """T*, V and L by the letters for their lines."""
+        return {"T": self.T, "V": self.V, "L": self.L}
+
+    @cached_property
     def mass_matrix(self) -> sp.ImmutableMatrix:
         """The mass matrix with all definitions written out and with values, as `expand` has it."""
         return sp.ImmutableMatrix(self.derivation.mass_matrix.applyfunc(self.expand))

@@ -250,7 +250,7 @@ def index_of(truth: Reference, name: str | None) -> int | None:
 def right_value(truth: Reference, line: AnsweredLine, i: int | None) -> sp.Expr | None:
     """The right value for the line in the system's coordinates; None if there is nothing to compare with."""
     if line.kind in ("T", "V", "L"):
-        return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
+        return truth.energies[line.kind]
     if line.kind == "D":
         return dissipation(truth)
     if line.kind in ("identity", *OWN_DERIVATIVES):

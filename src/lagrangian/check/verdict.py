@@ -182,6 +182,11 @@ class Finding(Brief):
     clash: str = ""
     """The line that it does not fit, where nothing says which of the two is right."""
 
+    @property
+    def is_open(self) -> bool:
+        """Whether the line is wrong, and not only because one above it is: here the answer goes wrong."""
+        return self.status is Status.WRONG and not self.follows
+
     def told(self, hint: int) -> Text | None:
         """The note that a hint level allows: below 3, none of a wrong line with a formula beyond ±a name."""
         shown = self.note is None or self.status.right or hint >= 3 or _names_only(self.note)

@@ -144,7 +144,7 @@ def _lines(verdict: Verdict, model: Model) -> Table:
     shown = _shown(verdict.findings)
     often = Counter(f.line.title for f in shown)
     rows: list[tuple[Text, ...]] = []
-    every = list(dict.fromkeys(f.line.title for f in shown if f.status is Status.WRONG and not f.follows))
+    every = list(dict.fromkeys(f.line.title for f in shown if f.is_open))
     roots: list[str] = []
     for f in shown:
         words: list[str | Left] = [_word(f, roots or every, "above" if roots else "below")]
@@ -152,7 +152,7 @@ def _lines(verdict: Verdict, model: Model) -> Table:
             words += [": ", *note.parts]
         of = _which(f, model) if often[f.line.title] > 1 else ()
         rows.append((text(f.line.title, *of), text(*words)))
-        if f.status is Status.WRONG and not f.follows and f.line.title not in roots:
+        if f.is_open and f.line.title not in roots:
             roots.append(f.line.title)
     return Table((text("line"), text("verdict")), tuple(rows))
 
@@ -161,7 +161,7 @@ def _shown(findings: Sequence[Finding]) -> list[Finding]:
     """The findings without those that say no more than another of the same line: a left-hand side whose equation has
     the same verdict, and what follows from a mistake in the same line."""
     alone = [f for f in findings if f.coordinate is None]
-    roots = {(f.line.number, f.line.kind) for f in alone if f.status is Status.WRONG and not f.follows}
+    roots = {(f.line.number, f.line.kind) for f in alone if f.is_open}
     equations = {(f.line.number, f.status, f.follows) for f in findings if f.line.kind == "equation"}
 
     def repeats(f: Finding) -> bool:

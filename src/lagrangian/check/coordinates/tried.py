@@ -279,7 +279,7 @@ class QuickTest:
         if energy is not None and new and energy.expr.has(*new) and not any(x.has(*new) for x in equations):
             equations = []
         self._equations = bool(equations)
-        right = [{"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind]] if energy is not None else []
+        right = [truth.energies[energy.kind]] if energy is not None else []
         self._own = CompiledExpressions([] if equations else right)
         chosen = equations or ([energy.expr] if energy is not None else [])
         self._compiled = CompiledExpressions(chosen)

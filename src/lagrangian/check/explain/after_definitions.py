@@ -38,7 +38,7 @@ def follow_from_definitions(truth: Reference, findings: Sequence[Finding], judge
         if way is not None:
             table.setdefault(name.rstrip("'"), truth.expand(own[name.rstrip("'")].symbol) - way)
     findings = _said_again(truth, findings, wrong)
-    open_lines = [f for f in findings if f.status is Status.WRONG and f not in wrong and not f.follows]
+    open_lines = [f for f in findings if f.is_open and f not in wrong]
     if not table or not open_lines:
         return list(findings)
     lines = [f.line for f in findings if (f.line.name or "").rstrip("'") not in table]

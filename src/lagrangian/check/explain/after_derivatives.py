@@ -29,8 +29,8 @@ def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> li
     """The findings, with the equations marked that have exactly what a wrong derivative above them has too much, and
     the d/dt ∂L/∂ξ̇ that are the derivative of a wrong ∂L/∂ξ̇ above them."""
     findings = _of_momenta(truth, findings)
-    derived = [f for f in findings if f.line.kind in ("p", *DERIVED) and _is_open(f)]
-    rows = [f for f in findings if f.line.kind == "equation" and _is_open(f)]
+    derived = [f for f in findings if f.line.kind in ("p", *DERIVED) and f.is_open]
+    rows = [f for f in findings if f.line.kind == "equation" and f.is_open]
     both = list(_of_both(truth, findings)) if rows else []
     if not (derived or both) or not rows:
         return findings
@@ -54,7 +54,7 @@ def _of_momenta(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
         above = (x for x in momenta if x.name == f.line.name and x.number <= f.line.number)
         return any(zero_everywhere(truth, f.line.expr - bounded.diff(x.expr, time)) for x in above)
 
-    open_ones = (f for f in findings if f.line.kind == "p-rate" and _is_open(f))
+    open_ones = (f for f in findings if f.line.kind == "p-rate" and f.is_open)
     following = {id(f) for f in open_ones if follows(f)}
     return [replace(f, follows=True) if id(f) in following else f for f in findings]
 
@@ -121,10 +121,6 @@ def _rest_of_energy(truth: Reference, line: AnsweredLine, own: StatedQuantity) -
     rest = (sp.S.Zero if mine is None else mine) - right
     by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
     return bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
-
-
-def _is_open(finding: Finding) -> bool:
-    return finding.status is Status.WRONG and not finding.follows
 
 
 def _extra(truth: Reference, finding: Finding) -> Iterator[tuple[int, int, Array]]:

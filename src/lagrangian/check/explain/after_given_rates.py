@@ -60,10 +60,7 @@ def _with_following(
             return is_spanned(truth, line.expr, rows)
         return line.kind == "T" and zero_everywhere(truth, line.expr - T)
 
-    return [
-        replace(f, follows=True) if f.status is Status.WRONG and not f.follows and follows(f.line) else f
-        for f in findings
-    ]
+    return [replace(f, follows=True) if f.is_open and follows(f.line) else f for f in findings]
 
 
 def _with_rates(

@@ -21,7 +21,7 @@ from lagrangian.check.explain.said_wrongly import said_of_rate
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import same_values, zero_everywhere
 from lagrangian.check.stated import right_value
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import Name, Total, text
 
@@ -89,14 +89,13 @@ def _following(
     truth: Reference, findings: Sequence[Finding], is_root: Callable[[AnsweredLine], bool], ways: Sequence[Way]
 ) -> Sequence[Finding]:
     """The findings, with those marked that follow in one of some ways from wrong lines above them."""
-    is_open = [f for f in findings if f.status is Status.WRONG and not f.follows]
-    roots = [f for f in is_open if is_root(f.line)]
+    roots = [f for f in findings if f.is_open and is_root(f.line)]
     if not roots:
         return findings
     found: list[Finding] = []
     for f in findings:
         above = [x.line for x in roots if x.line.number <= f.line.number and x is not f]
-        sought = any(f is x for x in is_open) and not any(f is x for x in roots)
+        sought = f.is_open and not any(f is x for x in roots)
         follows = sought and bool(above) and any(x(truth, f, above) for x in ways)
         found.append(replace(f, follows=True, differences=()) if follows else f)
     return found

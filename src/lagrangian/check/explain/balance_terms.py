@@ -16,8 +16,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
-from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
-from lagrangian.check.explain.combined_rows import is_mass as is_mass
+from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, is_mass, own_terms_of
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import same_values
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions

@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
-from lagrangian.check.explain.balance_terms import is_mass
+from lagrangian.check.explain.combined_rows import is_mass
 from lagrangian.check.explain.free_bodies import Balance, free_bodies, proportional
 from lagrangian.check.explain.known_forces import plain_scale
 from lagrangian.check.explain.right_balances import marked
@@ -56,7 +56,7 @@ def with_balances_apart(truth: Reference, lines: Sequence[AnsweredLine], verdict
         if any(y is not x and _share(x, y, forces) and False in (own[id(x)], own[id(y)]) for y in apart)
     ]
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
-    blamed = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    blamed = {place_of(f.line) for f in verdict.findings if f.is_open}
     unseen = [x for x in linked if place_of(x) not in wrong]
     if len({x.number for x in unseen}) < 2 or not any(own[id(x)] is False for x in unseen):
         return verdict

@@ -65,7 +65,7 @@ def with_reduced(truth: Reference, wrong: Sequence[WrongConstraint], findings: S
     number, ways = roots[0].finding.line.number, list(_reduced_rows(truth, roots[0]))
     found: list[Finding] = []
     for f in findings:
-        open_ = f.line.kind == "equation" and f.status is Status.WRONG and not f.follows and f.line.number > number
+        open_ = f.line.kind == "equation" and f.is_open and f.line.number > number
         if open_ and f.line.expr.has(*moved) and {*f.line.expr.free_symbols} <= truth.names:
             follows = any(is_spanned(truth, _put(f.line.expr, table), rows) for table, rows in ways)
             found.append(replace(f, follows=follows, differences=() if follows else f.differences))

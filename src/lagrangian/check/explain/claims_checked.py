@@ -16,7 +16,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.without_energies import WHOLE
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
@@ -120,18 +120,14 @@ def _claim(parts: Parts) -> _MissingTerms | None:
 
 def _without_untrue_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
     """A mistake without a possible reason that is not true, or that only says again what sign is wrong."""
-    parts = mistake.what.parts
-    place = next((k for k, x in enumerate(parts) if isinstance(x, str) and REASON in x), None)
-    if place is None:
+    if (said := parted(mistake)) is None:
         return mistake
-    before, _, after = str(parts[place]).partition(REASON)
-    reason = text(*([after] if after else []), *parts[place + 1 :])
-    claim = _claim(reason.parts)
-    told = str(text(*parts[:place], before))
-    again = bool(_SIGN.search(told.rstrip())) and bool(_SIGN.search(str(reason))) and _OF_ENERGY.match(str(reason))
+    certain, reason = said
+    claim, why = _claim(reason.parts), str(reason)
+    again = _SIGN.search(str(certain).rstrip()) and _SIGN.search(why) and _OF_ENERGY.match(why)
     if not again and (claim is None or not _is_there(verdict, claim)):
         return mistake
-    return replace(mistake, what=text(*parts[:place], before))
+    return replace(mistake, what=certain)
 
 
 def _is_there(verdict: Verdict, claim: _MissingTerms) -> bool:

@@ -14,7 +14,7 @@ from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness, voted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference
+from lagrangian.check.verdict import Finding, Mistake, TermDifference
 from lagrangian.page.formula import text
 from lagrangian.records import dataclass
 
@@ -127,4 +127,4 @@ def as_combinations(
 
 def open_equations(findings: Sequence[Finding]) -> list[Finding]:
     """The wrong equations that follow from no other line."""
-    return [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation" and not f.follows]
+    return [f for f in findings if f.is_open and f.line.kind == "equation"]

@@ -77,5 +77,5 @@ def _blamed(
         return None
     asked = replace(verdict, mistakes=(), alternatives=())  # one for the definition is of what it is not meant to be
     found = with_wrong_balance(truth, listed, asked, judge=judge)
-    roots = {place_of(f.line) for f in found.findings if f.status is Status.WRONG and not f.follows}
+    roots = {place_of(f.line) for f in found.findings if f.is_open}
     return found if roots == {place_of(line)} and found.mistakes else None

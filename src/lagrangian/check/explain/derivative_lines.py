@@ -22,7 +22,7 @@ from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, AnsweredLine, Finding, Mistake
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Text, Total, text
 
@@ -131,7 +131,7 @@ def _of_own_line(
     truth: Reference, mistake: Mistake, lines: Sequence[AnsweredLine], findings: Sequence[Finding]
 ) -> Mistake:
     """A mistake in the equation of a coordinate, told in the wrong derivative of this coordinate if there is one."""
-    wrong = (f.line for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind in DERIVED)
+    wrong = (f.line for f in findings if f.is_open and f.line.kind in DERIVED)
     own = [x for x in wrong if x.name == mistake.coordinate] if mistake.coordinate is not None else []
     here = _is_of_equation(mistake) or _restates(mistake)
     slip = slip_in(truth, own[0], lines) if len(own) == 1 and here else None

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian.check.explain.own_terms import term_replaced
-from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.explain.without_energies import silent_energies
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import Left, Minus, Partial, Text, Total, text
 
 STEP, KINETIC = 5, 2
@@ -47,12 +47,12 @@ def _by_terms(truth: Reference, mistake: Mistake, verdict: Verdict, stated: bool
         return mistake
     if sum(m.coordinate in (mistake.coordinate, None) and m.step in (KINETIC, STEP) for m in verdict.mistakes) > 1:
         return mistake
-    wrong = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows and f.line.kind == "equation"]
+    wrong = [f for f in verdict.findings if f.is_open and f.line.kind == "equation"]
     own = [f for f in wrong if f.coordinate == mistake.coordinate]
     said = _said(truth, own[0]) if len(own) == 1 else None
     if said is None:
         return mistake
-    return replace(mistake, what=text(*said.parts, REASON, *mistake.what.parts) if stated else said)
+    return with_reason(said, mistake) if stated else replace(mistake, what=said)
 
 
 def _speaks_of_derivatives(what: Text) -> bool:

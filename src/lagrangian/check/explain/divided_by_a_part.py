@@ -8,11 +8,11 @@ from typing import cast
 import numpy as np
 import sympy as sp
 
-from lagrangian.check.explain.balance_terms import is_mass
+from lagrangian.check.explain.combined_rows import is_mass
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import small
-from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.check.verdict import Finding, Mistake
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import text
 
@@ -25,7 +25,7 @@ NAME = "divided_by_a_part"
 def divided_by_a_part(truth: Reference, findings: Sequence[Finding]) -> Mistake | None:
     """The mistake if the only wrong line that follows from none lacks several terms and would be right with one mass
     more in a denominator; None otherwise."""
-    wrong = [f for f in findings if f.status is Status.WRONG and not f.follows]
+    wrong = [f for f in findings if f.is_open]
     on = held(truth) if truth.derivation.multipliers else truth
     if len(wrong) != 1 or wrong[0].line.kind != "equation" or on is None:
         return None

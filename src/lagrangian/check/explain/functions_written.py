@@ -12,7 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.narrowed import FUNCTIONS
 from lagrangian.check.explain.own_terms import LINES
 from lagrangian.check.explain.say import KINDS
-from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.check.verdict import Finding, Mistake
 from lagrangian.page.formula import text
 
 SIGN = "_sign"
@@ -21,7 +21,7 @@ SIGN = "_sign"
 
 def in_written_terms(told: Sequence[Mistake], findings: Sequence[Finding]) -> tuple[Mistake, ...]:
     """The mistakes; a wrong function in an equation is told of the one term that has it as a factor."""
-    open_ones = [f for f in findings if f.status is Status.WRONG and not f.follows]
+    open_ones = [f for f in findings if f.is_open]
     if len(told) == 1 and told[0].name.endswith(SIGN) and (angle := _other_angle(open_ones)) is not None:
         line = open_ones[0].line.title if len(open_ones) == 1 else "the equations"
         said = text(f"In {line}, the angle ", angle[0], " stands in place of ", angle[1], ".")

@@ -17,7 +17,7 @@ from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.terms_alone import term_mistake
 from lagrangian.check.reading.shortened import meant
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Text
@@ -83,7 +83,7 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
 def _by_own_term(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict, in which a mistake in the energy of one equation alone, of an answer without energies, is told by
     the one term in which that differs: R S for 2 R S."""
-    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    roots = [f for f in verdict.findings if f.is_open]
     far = len(verdict.mistakes) == 1 and ALONE in str(verdict.mistakes[0].what)
     if not far or any(x.kind in ("T", "V", "L") for x in lines) or len(roots) != 1 or len(roots[0].differences) != 1:
         return verdict

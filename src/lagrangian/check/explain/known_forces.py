@@ -15,8 +15,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
-from lagrangian.check.explain.balance_terms import is_mass
-from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, own_terms_of, stands_in
+from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, is_mass, own_terms_of, stands_in
 from lagrangian.check.explain.free_bodies import Match, free_bodies, proportional
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference, terms

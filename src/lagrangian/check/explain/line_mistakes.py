@@ -66,7 +66,7 @@ def of_line(
         slip = slip_in_rate(truth, line, lines) or slip_in_own_rate(truth, line) or slip_in_values(truth, line)
         slip = slip or slip_in_inner_rate(truth, line)
         return [], [slip] if slip is not None else []
-    right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
+    right = truth.energies.get(line.kind)
     if right is None:
         assert i is not None
         undamped = without_dampers(truth, line, i, lines)

@@ -108,7 +108,7 @@ def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right:
 
 def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right: Lines) -> NamedMistakes:
     """The mistakes behind the wrong lines that do not follow from others."""
-    wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
+    wrong = [f.line for f in findings if f.is_open and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]

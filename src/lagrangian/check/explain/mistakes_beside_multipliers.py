@@ -114,7 +114,7 @@ def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
 def _are_above(wrong: Sequence[WrongConstraint], slipped: Sequence[int], findings: Findings) -> bool:
     """Whether what is wrong with constraints, or else the multipliers that ``slipped``, stands above all else that is
     wrong."""
-    others = [f.line.number for f in findings if f.status is Status.WRONG and not f.follows]
+    others = [f.line.number for f in findings if f.is_open]
     first = min((x.finding.line.number for x in wrong if not x.follows), default=None)
     if first is not None:
         return first <= min(others, default=first)
@@ -152,7 +152,7 @@ def _below_constraints(truth: Reference, findings: Findings, wrong: Lines) -> Fi
     roots = {k: line.number for k, line in enumerate(wrong, len(rows))}
     above, found = list[int](), dict[int, Finding]()
     for j, f in enumerate(rows):
-        if f.status is Status.WRONG and not f.follows:
+        if f.is_open:
             before = [
                 k
                 for k, number in roots.items()

@@ -18,7 +18,7 @@ from lagrangian.check.cleared import cleared
 from lagrangian.check.explain.combined_rows import as_written, difference, one_wrong_term
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Verdict
 
 
 def with_one_term_beside(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
@@ -38,7 +38,7 @@ def with_one_term_beside(truth: Reference, lines: Sequence[AnsweredLine], verdic
 
 
 def _is_open(finding: Finding) -> bool:
-    return finding.status is Status.WRONG and not finding.follows and finding.line.kind == "equation"
+    return finding.is_open and finding.line.kind == "equation"
 
 
 def _by_one_term(truth: Reference, lines: Sequence[AnsweredLine], finding: Finding) -> Finding | None:

@@ -17,9 +17,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of
-from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.candidates import ingredients_of
-from lagrangian.check.explain.combined_rows import WrongTerm
+from lagrangian.check.explain.combined_rows import WrongTerm, is_mass
 from lagrangian.check.explain.solved_forces import Balances
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine

@@ -18,8 +18,8 @@ from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
 from lagrangian.check.explain.at_places import changes, proportional_at_places
-from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.bodies_said import Blamed
+from lagrangian.check.explain.combined_rows import is_mass
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.meant import kinds_of
@@ -127,7 +127,7 @@ def _with_wrong_shorthand(
 
 def _open(verdict: Verdict) -> list[Finding]:
     """The findings that are wrong and follow from none, but for those of definitions."""
-    wrong = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    wrong = [f for f in verdict.findings if f.is_open]
     return [f for f in wrong if f.line.kind != "definition"]
 
 
@@ -212,7 +212,7 @@ def _may_mend(truth: Reference, first: AnsweredLine, put: Answer) -> bool:
     if len(exprs) != 1 or on is None or bounded.letters(exprs[0]) - truth.names - {time}:
         return True
     if first.kind in ("T", "V", "L") and on is truth:
-        return _keeps_energy(truth, exprs[0], {"T": truth.T, "V": truth.V, "L": truth.L}[first.kind])
+        return _keeps_energy(truth, exprs[0], truth.energies[first.kind])
     if first.kind != "equation":
         return True
     compiled = CompiledExpressions(exprs)

@@ -20,7 +20,7 @@ from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import same_values, zero_everywhere
 from lagrangian.check.stated import given
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Name, Total, text
@@ -70,9 +70,8 @@ def slip_in_rate(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredL
 def follow_from_rates(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with the equation of the one coordinate marked if it has just what such a rate has too much."""
     lines = [f.line for f in findings]
-    is_open = [f.status is Status.WRONG and not f.follows for f in findings]
-    wrong = [f for f, x in zip(findings, is_open, strict=True) if x and rate_stated(truth, f.line, lines) is not None]
-    rows = [f for f, x in zip(findings, is_open, strict=True) if x and f.line.kind == "equation"]
+    wrong = [f for f in findings if f.is_open and rate_stated(truth, f.line, lines) is not None]
+    rows = [f for f in findings if f.is_open and f.line.kind == "equation"]
     told = {id(f) for f in wrong if f.differences and slip_in_rate(truth, f.line, lines) is not None}
     findings = [replace(f, differences=()) if id(f) in told else f for f in findings]  # left minus right nobody wrote
     if truth.n != 1 or not wrong or not rows:

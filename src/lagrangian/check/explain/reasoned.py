@@ -22,7 +22,7 @@ from lagrangian.check.explain.taken_as import taken_in
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.explain.written_pieces import WrittenPieces
 from lagrangian.check.reference import Reference, without_time
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
 
@@ -141,7 +141,7 @@ def _is_of(mistake: Mistake, title: str) -> bool:
 def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
     """The mistakes, with those in wrong energies of bodies that nothing else uses in front, in place of what else would
     be said of these energies."""
-    wrong = [f.line for f in findings if f.line.kind == "definition" and f.status is Status.WRONG and not f.follows]
+    wrong = [f.line for f in findings if f.line.kind == "definition" and f.is_open]
     wrong = [x for x in wrong if not any(str(m.what).startswith(f"Line {x.number} is ") for m in told)]
     pairs = [(p, owner) for x in wrong if (owner := owner_of(x.name or "", truth.model)) for p in said_of(truth, x)]
     every = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]

@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.check.verdict import Finding, Mistake
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import text
 
@@ -23,7 +23,7 @@ WHY = text("Put in a position that the sketch shows, an angle of zero or a right
 
 def of_relation(truth: Reference, findings: Sequence[Finding]) -> tuple[Mistake, ...]:
     """What is wrong in the first wrong line, if it is a relation of positions that one other term would make hold."""
-    first = next((f.line for f in findings if f.status is Status.WRONG and not f.follows), None)
+    first = next((f.line for f in findings if f.is_open), None)
     if first is None or first.kind != "equation" or truth.derivation.multipliers or not first.summands:
         return ()
     terms = [truth.expand(sp.Mul(*ways[0])) for ways in first.summands]

@@ -16,7 +16,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.apart import told_apart
-from lagrangian.check.explain.balance_terms import is_mass
+from lagrangian.check.explain.combined_rows import is_mass
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of
 from lagrangian.check.explain.said_wrongly import InWords, SaidWrongly
 from lagrangian.check.held import held

@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.terms.sides import LEFT, on_side
-from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
 
 Part: TypeAlias = "str | Left | Verbatim"
@@ -31,7 +31,7 @@ ON_LEFT, ON_RIGHT = "on the left-hand side", "on the right-hand side"
 
 def with_sides(verdict: Verdict) -> Verdict:
     """The verdict, with the terms of its mistakes as they stand in the wrong equations."""
-    roots = [f for f in verdict.findings if f.line.kind == "equation" and f.status is Status.WRONG and not f.follows]
+    roots = [f for f in verdict.findings if f.line.kind == "equation" and f.is_open]
     if not roots:
         return verdict
     if any(f.line.kind != "equation" for f in open_findings(verdict)):

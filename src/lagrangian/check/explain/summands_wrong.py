@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrangian.check.explain.combined_rows import NUMBERS, WrongTerm, as_written, difference, in_factors, outside_rows
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
 
 MOST = 60
@@ -32,7 +32,7 @@ def with_wrong_summands(truth: Reference, lines: Sequence[AnsweredLine], verdict
 
 def _with_summand(truth: Reference, lines: Sequence[AnsweredLine], finding: Finding) -> Finding:
     """The finding with its one wrong summand, if it has one."""
-    open_one = finding.status is Status.WRONG and not finding.follows and not finding.differences
+    open_one = finding.is_open and not finding.differences
     if not open_one or finding.line.kind != "equation":
         return finding
     wrong = one_wrong_summand(truth, as_written(lines, finding.line))

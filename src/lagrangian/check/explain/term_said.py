@@ -143,6 +143,16 @@ def with_reason(said: Text, mistake: Mistake) -> Mistake:
     return replace(mistake, what=text(*said.parts, REASON, *mistake.what.parts))
 
 
+def parted(mistake: Mistake) -> tuple[Text, Text] | None:
+    """What a mistake says for certain, and the possible reason behind it; None if it gives none."""
+    parts = mistake.what.parts
+    place = next((k for k, x in enumerate(parts) if isinstance(x, str) and REASON in x), None)
+    if place is None:
+        return None
+    before, _, after = str(parts[place]).partition(REASON)
+    return text(*parts[:place], before), text(*([after] if after else []), *parts[place + 1 :])
+
+
 def _is_plain(possible: Possible) -> bool:
     """Whether the words of a mistake already say what stands in the equation: a part, or something forgotten."""
     if possible.wrong is not None:

@@ -16,7 +16,7 @@ import sympy as sp
 from lagrangian.check.explain.certain_first import with_certain_terms
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
-from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.terms.pieces import partner
@@ -189,15 +189,9 @@ def _is_of_right_quantity(said: str, verdict: Verdict) -> bool:
 
 def _without_refuted_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
     """A mistake without a reason that the lines refute: the term is certain, the reason is not."""
-    parts = mistake.what.parts
-    place = next((k for k, x in enumerate(parts) if isinstance(x, str) and REASON in x), None)
-    if place is None:
-        return mistake
-    before, _, after = str(parts[place]).partition(REASON)
-    reason = str(text(after, *parts[place + 1 :]))
-    if not _is_of_right_quantity(reason, verdict):
-        return mistake
-    return replace(mistake, what=text(*parts[:place], before))
+    said = parted(mistake)
+    refuted = said is not None and _is_of_right_quantity(str(said[1]), verdict)
+    return replace(mistake, what=said[0]) if said is not None and refuted else mistake
 
 
 def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:

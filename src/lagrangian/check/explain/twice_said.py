@@ -18,7 +18,7 @@ from lagrangian.check.explain.spoken import in_dissipation
 from lagrangian.check.explain.without_energies import silent_energies
 from lagrangian.check.reading.answer import Summands
 from lagrangian.check.terms.sides import on_side
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import text
 
 COUNTED, COUNTS, HALVED = " is counted twice", " counts twice", "damper_half"
@@ -32,7 +32,7 @@ WHY_DAMPER = text("A damper pulls with its constant times its rate, and its forc
 
 def with_twice_said(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict, in which what stands once with twice its value is not said to be counted twice."""
-    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    roots = [f for f in verdict.findings if f.is_open]
     places = [(f, d) for f in roots for d in f.differences if d.kind == "coefficient"]
     if not places:
         return verdict

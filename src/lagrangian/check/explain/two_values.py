@@ -37,7 +37,7 @@ def slip_in_values(truth: Reference, line: AnsweredLine) -> Mistake | None:
 
 def follow_from_values(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with those marked in which nothing is wrong but that one value stands for the other."""
-    wrong = [f for f in findings if f.status is Status.WRONG and not f.follows]
+    wrong = [f for f in findings if f.is_open]
     pairs = [(f.line.number, x) for f in wrong if (x := _values(truth, f.line)) is not None]
     found: list[Finding] = []
     for f in findings:

@@ -51,7 +51,7 @@ def with_second_balance(
 
 def _of_its_own(line: AnsweredLine, findings: Sequence[Finding]) -> tuple[TermDifference, ...]:
     """The terms of a wrong equation that stand in it, and not in a force that is put in."""
-    found = [f for f in findings if f.status is Status.WRONG and not f.follows and place_of(f.line) == place_of(line)]
+    found = [f for f in findings if f.is_open and place_of(f.line) == place_of(line)]
     terms = _terms(line.expr)
     return tuple(d for f in found for d in f.differences if (own := _terms(d.written)) and own <= terms)
 

@@ -16,8 +16,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
-from lagrangian.check.explain.balance_terms import Laws, Mend, is_mass, mends, plainest
-from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
+from lagrangian.check.explain.balance_terms import Laws, Mend, mends, plainest
+from lagrangian.check.explain.combined_rows import WrongTerm, difference, is_mass, term_to_blame
 from lagrangian.check.explain.either_sign import sign_in_one_of_two
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
 from lagrangian.check.explain.pieces_shared import wrong_share
@@ -107,7 +107,7 @@ def with_wrong_balance(
     holds = np.any([hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
-    roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    roots = {place_of(f.line) for f in verdict.findings if f.is_open}
     theirs = solved.known is not None or (solved.term is not None and solved.term.term.has(*balances.forces))
     plain &= theirs or k is None or k in parts or on is not truth
     if verdict.mistakes and roots == {place_of(line)} and not plain:
@@ -125,7 +125,7 @@ def with_wrong_balance(
 def _above(findings: Sequence[Finding], line: AnsweredLine) -> list[Mistake]:
     """The mistakes in equations above a wrong balance that differ from right ones in few terms: nothing in it is their
     cause."""
-    wrong = [f for f in findings if f.status is Status.WRONG and not f.follows and not f.clash]
+    wrong = [f for f in findings if f.is_open and not f.clash]
     own = [f for f in wrong if f.line.kind == "equation" and f.line.number < line.number]
     few = [(f, d) for f in own if len(f.differences) <= MOST_TERMS for d in f.differences]
     return [replace(term_mistake(f, d), why=WHY) for f, d in few]
@@ -166,7 +166,7 @@ def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdic
     places = left_out(balances)
     apart = [balances.lines[i] for i in places] if 1 < len(places) <= MOST_TOLD else []
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
-    roots = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    roots = {place_of(f.line) for f in verdict.findings if f.is_open}
     spared = [i for i in places if place_of(balances.lines[i]) not in wrong]
     doubtful = any(not told or i not in parts or not parts[i].right for i in spared)
     own = {place_of(x) for x in apart}

@@ -132,7 +132,7 @@ def may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
             if not np.isfinite(truly).all() or np.abs(truly).max() > DOUBLE_TOLERANCE * scale:
                 return False
         elif line.kind in ("T", "V", "L"):
-            right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
+            right = truth.energies[line.kind]
             rest = CompiledExpressions([line.expr - right]).at(truth.states)[0].reshape(2, -1)
             if not np.isfinite(rest).all() or np.abs(rest - rest[:, :1]).max() > 1e-6:
                 return False

@@ -13,9 +13,10 @@ from lark import Tree
 
 from lagrangian import bounded
 from lagrangian.check.reading.line_forms import Statement
-from lagrangian.check.reading.meaning import Meaning, ReadingBudget
+from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import inside, only_name
+from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.subjects import Subject
 from lagrangian.read.letters import key
 

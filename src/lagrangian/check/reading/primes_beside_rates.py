@@ -18,7 +18,7 @@ from lagrangian.check.reading.chained_names import define_chained
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Value
 from lagrangian.check.reading.nodes import names_in
-from lagrangian.check.reading.slopes_by_dots import has_prime, with_slopes
+from lagrangian.check.reading.slopes_by_dots import has_prime, tell_slopes, with_slopes
 from lagrangian.model.names import time
 from lagrangian.read.letters import key
 
@@ -42,16 +42,11 @@ def values_beside_rates(sides: Sequence[Tree], reader: Meaning) -> list[Value]:
     other.slopes = primed
     slopes = [other.value(side) for side in sides]
     pairs = [(x, y) for x, y in zip(values, slopes, strict=True) if isinstance(x, sp.Expr) and x != y]
-    dotted = any(_dots(x, MANY) and _dots(y, ALIKE) for x, y in pairs)
+    dotted = any(_dots(x, alike=False) and _dots(y, alike=True) for x, y in pairs)
     if not pairs or not (dotted or _equal(slopes) > _equal(values)):
         return values
-    for name in sorted(primed.values()):
-        reader.names.notes.setdefault(f"{name}' was read as the slope of {name}: only so the terms beside it fit.")
+    tell_slopes(primed, reader.names)
     return slopes
-
-
-MANY, ALIKE = False, True
-"""Whether the terms of a side have equally many dots."""
 
 
 def _own_functions(sides: Sequence[Tree], reader: Meaning) -> dict[str, str]:
@@ -63,21 +58,21 @@ def _own_functions(sides: Sequence[Tree], reader: Meaning) -> dict[str, str]:
     for token in (x for x in changing if key(str(x)) not in dotted):
         name = str(token)
         _, value = reader.names.own.get(key(name), ("", None))
-        if isinstance(value, sp.Expr) and slope_by(value, reader) is not None:
+        if isinstance(value, sp.Expr) and _is_of_one(value, reader):
             found[key(name)] = name
     return found
 
 
-def slope_by(value: sp.Expr, reader: Meaning) -> sp.Expr | None:
-    """The one coordinate of which a value is a function, and of nothing else that changes with time."""
+def _is_of_one(value: sp.Expr, reader: Meaning) -> bool:
+    """Whether a value is a function of one coordinate, and of nothing else that changes with time."""
     expr = reader.names.model.expand(value)
     moving = bounded.atoms(expr, AppliedUndef)
-    by = next(iter(moving)) if len(moving) == 1 else None
-    alone = by in reader.names.moving_symbols and not bounded.atoms(expr, sp.Derivative)
-    return by if alone and time not in expr.xreplace({by: sp.S.One}).free_symbols else None
+    if len(moving) != 1 or not moving <= reader.names.moving_symbols or bounded.atoms(expr, sp.Derivative):
+        return False
+    return time not in expr.xreplace(dict.fromkeys(moving, sp.S.One)).free_symbols
 
 
-def _dots(expr: sp.Expr, alike: bool) -> bool:
+def _dots(expr: sp.Expr, *, alike: bool) -> bool:
     """Whether the terms of a side with accelerations have equally many dots, or do not."""
     if not any(x.derivative_count > 1 for x in bounded.atoms(expr, sp.Derivative)):
         return False

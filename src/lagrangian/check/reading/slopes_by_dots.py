@@ -41,8 +41,7 @@ MOST = 200
 @dataclass(frozen=True)
 class _Term:
     """The dots of a term, if primes of functions are rates and if they are slopes; whether all dots in it are known, as
-    it has an acceleration or is ∂L/∂θ; whether it has such a prime; and the
-    names whose rates stand in it."""
+    it has an acceleration or is ∂L/∂θ; whether it has such a prime; and the names whose rates stand in it."""
 
     rated: int = 0
     sloped: int = 0
@@ -269,9 +268,14 @@ def with_slopes(reader: Meaning) -> bool:
     if any(ENERGY_NAMES.get(name) == "V" and not _is_energy(x, names) for name, x in values.items()):
         return False
     reader.slopes = own
+    tell_slopes(own, names)
+    return True
+
+
+def tell_slopes(own: Mapping[str, str], names: Names) -> None:
+    """Tell that primes of names were read as slopes."""
     for name in sorted(own.values()):
         names.notes.setdefault(f"{name}' was read as the slope of {name}: only so the terms beside it fit.")
-    return True
 
 
 def _value(base: str, name: str, names: Names) -> object:

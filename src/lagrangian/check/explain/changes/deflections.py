@@ -74,18 +74,15 @@ def _different(listed: Iterator[tuple[sp.Expr, str, float]], whole: sp.Expr) -> 
 def _forwards(deflection: sp.Expr, right: sp.Expr, q: Sequence[sp.Expr]) -> sp.Expr:
     """A deflection as one would write it, with the signs of the right one, z − x for z − x/2, and x + y for −x − y: its
     sign is squared."""
+    shared = [x for x in q if deflection.has(x) and right.has(x)]
+    signs = [(bounded.diff(deflection, x) * bounded.diff(right, x)).could_extract_minus_sign() for x in shared]
     if not isinstance(deflection, sp.Add) and not isinstance(right, sp.Add):
-        return (
-            -deflection
-            if deflection.could_extract_minus_sign() and not right.could_extract_minus_sign()
-            else deflection
-        )
-    alike = [bounded.diff(deflection, x) * bounded.diff(right, x) for x in q if deflection.has(x) and right.has(x)]
-    turned = sum(x.could_extract_minus_sign() for x in alike)
-    if 2 * turned != len(alike):
-        return -deflection if 2 * turned > len(alike) else deflection
-    pieces = sp.Add.make_args(deflection)
-    return -deflection if all(x.could_extract_minus_sign() for x in pieces) else deflection
+        turned = deflection.could_extract_minus_sign() and not right.could_extract_minus_sign()
+    elif 2 * sum(signs) != len(signs):
+        turned = 2 * sum(signs) > len(signs)
+    else:
+        turned = all(x.could_extract_minus_sign() for x in sp.Add.make_args(deflection))
+    return -deflection if turned else deflection
 
 
 class DeflectionChanges:

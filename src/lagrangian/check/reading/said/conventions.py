@@ -71,9 +71,10 @@ def stated_coordinates(text: str, names: Sequence[str]) -> StatedCoordinates:
     bare = re.sub(r"[$`*{}]|\\(?:text|mathrm|,|;|!)", " ", text)
     ways = sorted({(name, way) for name, way, _ in stated_senses(bare, names)})
     rest, axes = set[str](), set[tuple[str, str]]()
+    stretched = _STRETCH.search(bare) is not None
     for said in islice(_sentences(bare), MOST):
         found = [own[key(m["name"])] for m in _TOKEN.finditer(said) if key(m["name"]) in own]
-        if not _STRETCH.search(bare) and _counts_from_rest(said):
+        if not stretched and _counts_from_rest(said):
             rest |= set(found or names)
         for match in _AXIS.finditer(said):
             if "=" in said[: match.start()]:
