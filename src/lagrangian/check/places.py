@@ -12,6 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.at_rest import DIGITS, at_rest, balances, letters_of_inputs, numbers_for, still_of
+from lagrangian.check.of_one_variable import digits, number, value_and_slope
 from lagrangian.check.reference import Reference
 from lagrangian.model import time
 from lagrangian.read.letters import key
@@ -29,6 +30,8 @@ FARTHEST = 50
 """Beyond this value no position is sought."""
 
 AT_REST = "it is about the position at rest"
+_TINY = 10.0 ** (10 - DIGITS)
+_CLOSE = 10.0 ** (5 - DIGITS)
 STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) + sp.I / 5)
 
 
@@ -261,11 +264,12 @@ def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
     names = sorted(own.free_symbols.union(*(row.free_symbols for row in rows)) - place.free_symbols, key=str)
     table = numbers_for(names)
     f, *balance = (cast("sp.Expr", x.xreplace(table)) for x in (own, *rows))
-    if any(_proportional(f, row, place) for row in balance):
-        return True
-    found = [root for start in STARTS if (root := _root(f, place, start)) is not None]
-    elsewhere = any(abs(root) > sp.Float(10) ** (10 - DIGITS) for root in found)
-    return elsewhere and any(all(_vanishes(row, place, root) for root in found) for row in balance)
+    with digits(DIGITS):
+        if any(_proportional(f, row, place) for row in balance):
+            return True
+        found = [root for start in STARTS if (root := _root(f, place, start)) is not None]
+        elsewhere = any(abs(root) > _TINY for root in found)
+        return elsewhere and any(all(_vanishes(row, place, root) for root in found) for row in balance)
 
 
 def _moves_by_itself(expr: sp.Expr, place: AppliedUndef) -> bool:
@@ -275,27 +279,32 @@ def _moves_by_itself(expr: sp.Expr, place: AppliedUndef) -> bool:
 
 def _proportional(f: sp.Expr, row: sp.Expr, place: AppliedUndef) -> bool:
     """Whether two expressions of numbers have the same ratio at several places."""
-    (a, b), *others = [[sp.N(x.xreplace({place: at}), DIGITS) for x in (f, row)] for at in STARTS]
-    return all(abs(a * d - b * c) <= sp.Float(10) ** (10 - DIGITS) * (abs(a * d) + abs(b * c)) for c, d in others)
+    found = [[value_and_slope(x, place, number(at)) for x in (f, row)] for at in STARTS]
+    ratios = [(a[0], b[0]) for a, b in found if a is not None and b is not None]
+    if len(ratios) < len(STARTS):
+        return False
+    (a, b), *others = ratios
+    return all(abs(a * d - b * c) <= _TINY * (abs(a * d) + abs(b * c)) for c, d in others)
 
 
-def _root(f: sp.Expr, place: AppliedUndef, start: sp.Expr) -> sp.Expr | None:
+def _root(f: sp.Expr, place: AppliedUndef, start: sp.Expr) -> Any | None:
     """A place where an expression of numbers is 0, perhaps a complex one, by Newton's method; None if none is found."""
-    slope, at = f.diff(place), sp.N(start, DIGITS)
+    at = number(start)
     for _ in range(STEPS):
-        values = [sp.N(x.xreplace({place: at}), DIGITS) for x in (f, slope)]
-        if not all(x.is_number and x.is_finite for x in values) or values[1] == 0:
+        found = value_and_slope(f, place, at)
+        if found is None or found[1] == 0:
             return None
-        step = sp.N(values[0] / values[1], DIGITS)
-        at = sp.N(at - step, DIGITS)
+        step = found[0] / found[1]
+        at = at - step
         if abs(at) > FARTHEST:
             return None
-        if abs(step) < sp.Float(10) ** (5 - DIGITS):
+        if abs(step) < _CLOSE:
             return at
     return None
 
 
-def _vanishes(row: sp.Expr, place: AppliedUndef, root: sp.Expr) -> bool:
+def _vanishes(row: sp.Expr, place: AppliedUndef, root: Any) -> bool:
     """Whether a row is 0 at a place, compared with the largest of its terms."""
-    terms = [sp.N(x.xreplace({place: root}), DIGITS) for x in sp.Add.make_args(row)]
-    return bool(abs(sum(terms)) <= sp.Float(10) ** (10 - DIGITS) * max(abs(x) for x in terms))
+    found = [value_and_slope(x, place, root) for x in sp.Add.make_args(row)]
+    terms = [x[0] for x in found if x is not None]
+    return len(terms) == len(found) and bool(abs(sum(terms)) <= _TINY * max(abs(x) for x in terms))

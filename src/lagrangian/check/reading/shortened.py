@@ -11,6 +11,9 @@ from sympy.core.function import AppliedUndef
 from lagrangian.read.letters import GREEK, key, undotted
 from lagrangian.read.scope import Scope
 
+LONGEST = 100
+"""The length of a word above which it shortens no name."""
+
 _SHORT = {
     "epsilon": ("eps", "ep"),
     "theta": ("th", "tht", "thet"),
@@ -104,7 +107,7 @@ class AnswerScope(Scope):
         return self._shortened(base), dots
 
     def _shortened(self, base: str) -> list[str]:
-        if key(base) in self.taken or self._is_product(key(base)):
+        if len(base) > LONGEST or key(base) in self.taken or self._is_product(key(base)):
             return []
         found = self._short_for(base)
         rated = base in self._rated and self._is_product(key(base), rated=False)
