@@ -26,7 +26,7 @@ from lagrangian.check.places import (
     rests_without_rates,
 )
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import Kind, RowComparison, factors_of
+from lagrangian.check.rows import Kind, RowComparison, factors_of, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -36,6 +36,8 @@ from lagrangian.read.letters import key
 _D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
 _SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
 """A derivative on the left: dI/dθ = …, which is said of all positions unless it is zero."""
+AT_PLACE = "it is about one position"
+BELOW = "its sentence is about a special motion"
 _ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 
 
@@ -63,10 +65,13 @@ def beside(
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
     }
+    places |= {line.number for line in lines if "place" in line.beside}
+    aside |= {id(x): AT_PLACE for x in lines if complete and x.number in places and _is_of_place(truth, x)}
     others = [line for line in wrong if id(line) not in aside and (complete or line.beside)]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
     aside |= {id(line): why for line in wrong if id(line) not in aside and (why := _remark(truth, line))}
+    aside |= {id(line): BELOW for line in _below(truth, placed, equations, comparison) if id(line) not in aside}
     special = [line for line in placed if "aside" in line.beside and relates_freedoms(truth, line.expr)]
     if complete and all(id(line) in aside or line in special for line in wrong):
         aside |= {id(line): "it holds in special motions alone" for line in special}
@@ -80,6 +85,21 @@ def beside(
     return kept, tuple(text(note) for note in dict.fromkeys(told))
 
 
+def _below(
+    truth: Reference, wrong: Sequence[AnsweredLine], equations: Sequence[AnsweredLine], comparison: RowComparison
+) -> list[AnsweredLine]:
+    """The wrong lines of a sentence about special motions, below all right equations of motion, that hold no
+    acceleration. What is said of rest, and is not true there, is left."""
+    if comparison.rank < truth.n:
+        return []
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    pairs = zip(equations, comparison.rows, strict=True)
+    right = [x.number for x, row in pairs if row.kind is not Kind.WRONG and x.expr.has(*accelerations)]
+    below = [x for x in wrong if x.number > max(right, default=0) and "special" in x.beside]
+    found = [x for x in below if not x.expr.has(*accelerations)]
+    return [x for x in found if rests(truth, x.expr, said="rest" in x.beside) is not False]
+
+
 def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a statement on a force or a position is right at rest, S = m g; with rates, where S was k δ + b δ′ above,
     only if words say that it is about rest."""
@@ -87,6 +107,12 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
     if line.expr.has(sp.Derivative):
         return said and rests_without_rates(truth, line.expr, [])
     return rests(truth, line.expr, said=said) is True
+
+
+def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a second value of a name that changes is about the position that its line gives: θ = 30°: l = 0.36."""
+    moves = bool(line.expr.atoms(AppliedUndef)) and not line.expr.has(sp.Derivative)
+    return line.kind == "identity" and moves and not zero_everywhere(truth, line.expr)
 
 
 def _once(written: str) -> str:

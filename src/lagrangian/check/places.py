@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache
 from typing import Any, cast
 
@@ -69,6 +69,8 @@ def place_or_approximation(
         return None
     if _approximates(expr, changing):
         return "it is about small motions"
+    if said and any(_is_at_rest(truth, expr, q, changing - {q}) for q in changing):
+        return AT_REST
     if len(changing) > 1:
         return None
     (place,) = changing
@@ -248,13 +250,18 @@ def _middle(expr: sp.Expr, symbols: list[AppliedUndef]) -> dict[sp.Basic, sp.Exp
     return {q: cast("sp.Expr", sp.cancel(-rest / slope))}
 
 
-def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
-    """Whether a row of the system at rest, with constant inputs, vanishes wherever the line holds."""
-    if not expr.diff(place).has(place):
+def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef, others: Collection[AppliedUndef] = ()) -> bool:
+    """Whether a row of the system at rest, with constant inputs, vanishes wherever the line holds.
+
+    Where words say that it is at rest, it holds at any values of the ``others``, and inputs that it lacks are 0.
+    """
+    if others is None and not expr.diff(place).has(place):
         return False  # k x = 0 may be meant as an equation of motion
     if not all(isinstance(f, (sp.sin, sp.cos, sp.tan)) for f in _functions(expr, [place])):
         return False
-    still = still_of(truth) | letters_of_inputs(truth)
+    still = still_of(truth) | letters_of_inputs(truth) | {q: sp.Dummy(str(q.func)) for q in others or ()}
+    if others is not None:
+        still |= {u.symbol: sp.S.Zero for u in truth.model.inputs if not expr.has(u.symbol)}
     rows = [cast("sp.Expr", row.xreplace(still)) for row in truth.rows]
     rows = [row for row in rows if row.atoms(AppliedUndef) == {place}]
     own = cast("sp.Expr", expr.xreplace(still))

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import sympy as sp
@@ -40,7 +39,7 @@ from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.not_judged import unjudged_above, without_a_row
 from lagrangian.check.parts_above import with_parts_above
-from lagrangian.check.reading import Answer, decode_answer, parse_answer
+from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.check.readings_compared import (
     ENTRY,
     computes_right,
@@ -59,7 +58,6 @@ from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
 from lagrangian.page.formula import Text, Verbatim, text
 from lagrangian.page.report import Report
-from lagrangian.read import MAX_BYTES
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 from lagrangian.structured.predict import is_long
@@ -383,14 +381,3 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(as_typed(note, answer.lines) for note in listed.values()))
-
-
-def read_text(path: Path) -> str:
-    """Return the text of an answer's file; raises `Error` if it cannot be read."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        what = f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
-        raise Error(what, fix="check the path; - is standard input", code="E702") from error
-    return decode_answer(data, str(path))

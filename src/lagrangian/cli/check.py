@@ -109,8 +109,8 @@ def check(
       lagrangian check carts.toml answers/ -o summary.csv --answers table.csv
       lagrangian check carts.toml answers/ --points T=2,V=2 --feedback replies/
     """
-    from lagrangian.check.reading import decode_answer
-    from lagrangian.check.verb import check_answer, read_text
+    from lagrangian.check.reading import decode_answer, read_text
+    from lagrangian.check.verb import check_answer
     from lagrangian.cli.check_class import check_folder
     from lagrangian.structured.choose import derive_in_form
 

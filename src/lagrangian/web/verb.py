@@ -59,6 +59,6 @@ def _announce(address: str) -> None:
 
 def read_model(path: Path) -> str:
     """Return the text of a model file, which may contain mistakes. Raises `Error` if it cannot be read as text."""
-    from lagrangian.check.verb import read_text
+    from lagrangian.check.reading import read_text
 
     return read_text(path)

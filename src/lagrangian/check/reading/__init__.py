@@ -1,7 +1,7 @@
 """Reads answers in plain text or LaTeX: equations, energies, generalized forces, whole derivations by hand."""
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
-from lagrangian.check.reading.file_text import decode_answer
+from lagrangian.check.reading.file_text import decode_answer, read_text
 from lagrangian.check.reading.own_slopes import OwnCoordinates, named, replaced_by
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_placeholder
 from lagrangian.check.reading.read import MAX_ANSWER, parse_answer
@@ -21,5 +21,6 @@ __all__ = [
     "named",
     "of_coordinate",
     "parse_answer",
+    "read_text",
     "replaced_by",
 ]

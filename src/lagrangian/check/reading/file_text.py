@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import codecs
 import re
+from pathlib import Path
 
 from lagrangian.check.reading.notebook_file import of_notebook
-from lagrangian.errors import ParseError, Place
+from lagrangian.errors import Error, ParseError, Place
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.read import MAX_BYTES, decode
 
@@ -37,6 +38,17 @@ def decode_answer(data: bytes, name: str) -> str:
     text = _text(data, name)
     found = of_notebook(text)
     return text if found is None else found
+
+
+def read_text(path: Path) -> str:
+    """Return the text of an answer's file; raises `Error` if it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        what = f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
+        raise Error(what, fix="check the path; - is standard input", code="E702") from error
+    return decode_answer(data, str(path))
 
 
 def _text(data: bytes, name: str) -> str:

@@ -13,36 +13,26 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import accumulate, islice
 
-from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES, SPECIAL
+from lagrangian.check.reading.prose.blocks import closed, end_below, is_open
+from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.check.reading.words_beside import REST, words_beside
 from lagrangian.model import Model
-from lagrangian.read.letters import undotted
+from lagrangian.read.letters import key, undotted
 from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
 
-_REST = re.compile(
-    r"\b(?:at rest|hover|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
-    r"|(?<!the )rest\b(?=[^\w\n]{0,3}(?:with|where|when|if|for|position|requires|needs|means|:)))"
-    r"|gleichgewicht",
-    re.IGNORECASE,
-)
-"""Words of positions at rest."""
 _FIRST = 6
 """The words of a line of which one says that it is a remark."""
-_FEWEST_WORDS = 2
-"""Fewer words are no sentence."""
 _MOST = 40
 """The largest number of remarks."""
-_MOST_CLOSED = 12
-"""The most lines of a remark in brackets."""
-_LONGEST_TITLE = 8
-"""The most words of a title on a line of its own."""
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
 _LAST = re.compile(r"(?<![^\W_])[^\W\d_]{2,24}\Z")
@@ -76,6 +66,11 @@ _TERM = re.compile(r"[-+*/^²'’′:]|\w\(")
 """What stands between a condition and the word that begins it only if a formula begins there: for ẍ: ẍ = x θ̇² + …"""
 _LABEL = re.compile(rf"[ \t(]*+{_NAME}[ \t]*(?:->|→|=)[ \t]*(?:{_SIMPLE})(?:[ \t]*[,;][^:=\n]{{1,60}})?[ \t]*:")
 """A condition in front of what holds under it: F = 0, small phi: …"""
+_LABEL_IN_WORDS = re.compile(
+    rf"[ \t]*+(?:[-•*][ \t]+|\(?[a-z\d]{{1,3}}[.)][ \t]+)?[^\W\d_]{{2}}[^=:;\n()]{{0,80}}\("
+    rf"[ \t]*{_NAME}[ \t]*(?:->|→|=)[ \t]*(?:{_SIMPLE})(?:[ \t]*(?:,|=|and|und|et)[^:\n()]{{1,60}})?[ \t]*\)[ \t]*:"
+)
+"""The same in words, with the condition in brackets: weight locked in the middle (u = 0): …"""
 _ABSENT = re.compile(
     r"\b(?:no|without|negligible|frictionless|undamped|unforced|small|ohne|kein(?:e[nr]?)?|reibungsfrei|ungedämpft|klein(?:e[nr]?)?"
     r"|sans|petite?s?)\b",
@@ -94,12 +89,8 @@ _LACKS = re.compile(
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
-_BRACKETED = re.compile(r"\((?P<inside>[^()=\n]{1,80}=[^()=\n]{1,60})\)[.,;]?[ \t]*$")
-"""A relation in brackets at the end of a sentence."""
-_SENTENCE = 200
-"""The most characters of a sentence in front of a bracket."""
-_HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
-_RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
+_ITEM = re.compile(r"[ \t]*+(?:[-•*]|\(?[a-z\d]{1,3}[.)])[ \t]+")
+_UNITS = re.compile(r"(?:units?|dimensions?|einheiten?|dimension|unités?)\b", re.IGNORECASE)
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
 """A derivative of an energy."""
 _STATED = re.compile(
@@ -108,7 +99,6 @@ _STATED = re.compile(
 )
 """A name with a value, and whether that is 0."""
 _ENDS = re.compile(r"[.;!?](?=\s|\Z)")
-_OPEN = re.compile(r"[:,][ \t*`_)}\\]*\Z|=[ \t]*\Z")
 _MARKS = re.compile(r"\$|\\[\[\]()]|\\(?:begin|end)\{")
 _TEX = re.compile(r"\\(?:dot|ddot|equiv|text|mathrm|approx|to|rightarrow|ll|gg)(?![A-Za-z])|[\\${}&`*]")
 _SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "≪", "gg": "≫"}
@@ -127,7 +117,7 @@ class _Remark:
 @dataclass(frozen=True)
 class SideRemarks:
     """An answer in which remarks are blank, the numbers of the lines with their statements, and what words say of lines
-    by number: that they are "rest", and whether they are part of a "check" or of a "case"."""
+    by number: what `words_beside` finds, and whether they are part of a "check" or of a "case"."""
 
     text: str
     lines: tuple[int, ...]
@@ -142,10 +132,10 @@ def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) 
 def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemarks:
     lines = text.split("\n")
     starts = [0, *accumulate(len(line) + 1 for line in lines)]
-    found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
-    found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
+    found = [x for r in islice(_remarks(lines, starts, known), _MOST) for x in _without_stated(text, r, model)]
+    found = [r for r in found if "=" in (part := text[r.start : r.end]) and _is_whole(part)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
-    resting = [r for r in found if _REST.search(text[r.start : r.end].split("=", 1)[0])]
+    resting = [r for r in found if REST.search(text[r.start : r.end].split("=", 1)[0])]
     if sum(n for r, n in zip(found, moving, strict=True) if not r.case and not r.lacks) >= len(model.coordinates):
         found = [r for r in found if r.case or r.lacks]
     elif model.constraints:  # a remark may state a constraint
@@ -163,29 +153,29 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     said: dict[int, frozenset[str]] = {}
     for r in found:
         inside = range(bisect_right(starts, r.start) - 1, bisect_right(starts, r.end - 1))
-        rests = any(_REST.search(lines[k]) for k in inside[:1])
+        rests = any(REST.search(lines[k]) for k in inside[:1])
         for k in inside:
             said[k + 1] = said.get(k + 1, frozenset()) | {
                 "case" if r.case else "check",
                 *(["lacks"] if r.lacks else []),
                 *(["rest"] if rests else []),
             }
-    for k, line in enumerate(lines):
-        if _REST.search(line):
-            said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
-        if "(" in line and not accelerates_in(line) and _is_aside(line):
-            said[k + 1] = said.get(k + 1, frozenset()) | {"aside"}
+    for k, words in enumerate(words_beside(lines, {key(c.name) for c in model.coordinates})):
+        if words:
+            said[k + 1] = said.get(k + 1, frozenset()) | words
     return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)
 
 
-def _is_aside(line: str) -> bool:
-    """Whether a line ends in a relation in brackets that is about special motions, as its words say: its determinant is
-    zero (rigid body motion: y = R φ); no friction if they turn together (θ′ = −x′/R)."""
-    relation = _BRACKETED.search(line)
-    if relation is None:
-        return False
-    said = line[max(0, relation.start() - _SENTENCE) : relation.end()]
-    return len(_WORD.findall(said)) > _FEWEST_WORDS and SPECIAL.search(said) is not None
+def _without_stated(text: str, remark: _Remark, model: Model) -> Iterator[_Remark]:
+    """A remark, or those lines of a case that state no energy, force or derivative, where one of them does."""
+    if not _states(text[remark.start : remark.end], model):
+        yield remark
+    elif remark.case:
+        at = remark.start
+        for line in text[remark.start : remark.end].split("\n"):
+            if not _states(line, model):
+                yield replace(remark, start=at, end=at + len(line))
+            at += len(line) + 1
 
 
 def _blanked(text: str, remarks: Sequence[_Remark]) -> str:
@@ -202,8 +192,18 @@ def _uses(text: str, name: str) -> bool:
 
 
 def _general(part: str, known: Callable[[str], bool]) -> list[str]:
-    """The statements of a remark, one a line, of which none holds in a special case alone."""
-    return [line for line in part.split("\n") if "=" in line and not _is_case(line, known, led=True)]
+    """The statements of a remark, one a line, of which none holds in a special case alone or is about units; the lines
+    below a case belong to it, up to the next item."""
+    found: list[str] = []
+    case = False
+    for line in part.split("\n"):
+        item = _ITEM.match(line)
+        said = line[item.end() :] if item else line
+        alone = _is_case(said, known, led=True)
+        case = (case and item is None and bool(line.strip())) or _leaves_out(said) or _UNITS.match(said) is not None
+        found += [line] if "=" in line and not (alone or case) else []
+        case = case or (alone and item is not None)
+    return found
 
 
 def _is_whole(part: str) -> bool:
@@ -242,7 +242,7 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
             yield from _sentences(lines, k, starts, known)
             k += 1
             continue
-        end = _closed(lines, k) or (_end(lines, k) if _is_open(lines, k) else k + 1)
+        end = closed(lines, k) or (end_below(lines, k) if is_open(lines, k) else k + 1)
         case = kind == "case" or _leaves_out(lines[k]) or _is_case(" ".join(lines[k:end][:2]), known, led=True)
         yield _Remark(starts[k], starts[end] - 1, case)
         k = end
@@ -263,60 +263,6 @@ def _kind(line: str) -> str | None:
     return "check" if CHECKS & set(words) or of_frequencies else None
 
 
-def _is_title(lines: Sequence[str], k: int) -> bool:
-    """Whether a line is a heading."""
-    line = lines[k]
-    if _HEADING.match(line) or (k + 1 < len(lines) and line.strip() and _RULE.fullmatch(lines[k + 1])):
-        return True
-    words = line.split()
-    return "=" not in line and bool(_WORD.search(line)) and len(words) <= _LONGEST_TITLE and not accelerates_in(line)
-
-
-def _is_open(lines: Sequence[str], k: int) -> bool:
-    """Whether the lines below a line belong to it."""
-    return _is_title(lines, k) or bool(_OPEN.search(lines[k].rstrip())) or "=" not in lines[k]
-
-
-def _closed(lines: Sequence[str], k: int) -> int:
-    """The line behind a remark in brackets that begins on line k and is closed below it; 0 if it is none."""
-    if not lines[k].lstrip().startswith("("):
-        return 0
-    depth = 0
-    for j in range(k, min(k + _MOST_CLOSED, len(lines))):
-        depth += lines[j].count("(") - lines[j].count(")")
-        if depth <= 0:
-            return j + 1 if depth == 0 and j > k and lines[j].rstrip(" \t.").endswith(")") else 0
-    return 0
-
-
-def _end(lines: Sequence[str], k: int) -> int:
-    """The line behind what stands under line k."""
-    marked = bool(_HEADING.match(lines[k]))
-    stated, j = False, k + 1
-    if j < len(lines) and _RULE.fullmatch(lines[j]):
-        marked, j = True, j + 1
-    while j < len(lines):
-        if lines[j].strip() and _is_end(lines, j, stated):
-            break
-        if stated and not marked and not lines[j - 1].strip() and accelerates_in(_block(lines, j)):
-            break
-        stated = stated or "=" in lines[j]
-        j += 1
-    return j
-
-
-def _is_end(lines: Sequence[str], j: int, stated: bool) -> bool:
-    """Whether a heading ends what stands above it: any behind an equation, a marked one anywhere."""
-    marked = bool(_HEADING.match(lines[j])) or (j + 1 < len(lines) and bool(_RULE.fullmatch(lines[j + 1])))
-    return marked or (_is_title(lines, j) and (stated or lines[j].rstrip().endswith(":")))
-
-
-def _block(lines: Sequence[str], j: int) -> str:
-    """The lines up to the next blank one."""
-    end = next((i for i in range(j, len(lines)) if not lines[i].strip()), len(lines))
-    return "\n".join(lines[j:end])
-
-
 def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Callable[[str], bool]) -> Iterator[_Remark]:
     """The sentences of a line that hold only under a condition, each with the line below if it goes on there."""
     line = lines[k]
@@ -326,7 +272,8 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
     start = 0
     for end in ends:
         part = line[start:end]
-        case = bool(part.strip()) and _is_case(part, known, led=_LABEL.match(part) is not None)
+        led = _LABEL.match(part) is not None or _LABEL_IN_WORDS.match(part) is not None
+        case = bool(part.strip()) and _is_case(part, known, led=led)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
         case = case or kind == "case" or (kind is not None and _leaves_out(part))
         lacks = not case and _LACKS.match(part) is not None

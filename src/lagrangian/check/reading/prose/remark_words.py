@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 
 _CHECKS = (
-    "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
-    "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
+    "check checks checking checked control controls sanity plausibility plausible verification verify test probe "
+    "kontrolle plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
     "remark remarks note notes nb bemerkung bemerkungen anmerkung hinweis remarque comment kommentar observation "
     "interpretation discussion diskussion comparison vergleich sum summe adding addition somme "
     "conserved conservation erhaltung energieerhaltung impulserhaltung drallerhaltung energiebilanz"
 )
 _CASES = (
-    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
+    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite limites "
     "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
     "static statics statisch statische statischer steady stationär stationäre "
     "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
