@@ -25,8 +25,9 @@ from lagrangian.check.places import (
     rests,
     rests_without_rates,
 )
+from lagrangian.check.reading.prose.places_said import AT
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import Kind, RowComparison, factors_of
+from lagrangian.check.rows import Kind, RowComparison, factors_of, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -50,7 +51,7 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    values = [line for line in lines if line.kind == "identity" and _is_of_rest(truth, line)]
+    values = [x for x in lines if x.kind == "identity" and (_is_of_rest(truth, x) or _is_of_place(truth, x))]
     complete = comparison.rank >= truth.n
     if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
@@ -58,7 +59,7 @@ def beside(
     moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
     placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
-    aside |= {id(line): AT_REST for line in values}
+    aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it is about one position" for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
@@ -87,6 +88,22 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
     if line.expr.has(sp.Derivative):
         return said and rests_without_rates(truth, line.expr, [])
     return rests(truth, line.expr, said=said) is True
+
+
+def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a statement on a position holds at the one that words in front of it say: at θ = 90°: ℓ = √(a² + b²)."""
+    said = [x.removeprefix(AT).partition(" = ") for x in line.beside if x.startswith(AT)]
+    places = {c.symbol: _number(value) for c in truth.model.coordinates for name, _, value in said if c.name == name}
+    if not places or line.expr.has(sp.Derivative) or not line.expr.has(*places):
+        return False
+    return zero_everywhere(truth, cast("sp.Expr", line.expr.xreplace(places)))
+
+
+def _number(written: str) -> sp.Expr:
+    """A value such as 90*pi/180 or -1*pi/2."""
+    sign = -1 if written.startswith("-") else 1
+    factor, _, divisor = written.lstrip("-").partition("*pi/")
+    return sign * sp.Rational(factor) * (sp.pi / int(divisor) if divisor else 1)
 
 
 def _once(written: str) -> str:
