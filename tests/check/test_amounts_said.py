@@ -162,3 +162,26 @@ def test_letters_that_amount_to_nothing_are_worked_out(row: str) -> None:
         verdict = swing().check(f"{line.replace('4 l - 9 a', wrong)}\n{row}")
         assert [f.line.number for f in verdict.findings if f.status is Status.WRONG] == [1]
         assert f"is {amount}, not 0." in verdict.to_text()
+
+
+RELATION = "'{}' was not judged: it is a relation of parameters that holds with the values of the system, and no "
+
+
+@pytest.mark.parametrize("relation", ["4 l = 9 a", "k a^2 = 8 m l*80/27", "9 a - 4 l = 0"])
+@pytest.mark.parametrize("row", [ROW, LETTERS])
+def test_a_relation_of_parameters_that_holds_is_no_equation_of_motion(relation: str, row: str) -> None:
+    verdict = swing().check(f"{relation}\n{row}")
+    assert verdict.right and RELATION.format(relation)[:40] in " ".join(verdict.to_text().split())
+    assert (
+        not swing()
+        .check(f"{relation}\n{row.replace('- 13.52', '+ 13.52').replace('- k a^2 sin', '+ k a^2 sin')}")
+        .right
+    )
+
+
+def test_a_relation_of_parameters_does_not_hold_for_letters() -> None:
+    """9 a is 4 l with these values alone: letters are judged for all."""
+    answer = LETTERS.replace("k a^2 theta", "16/81 k l^2 theta")
+    assert not swing().check(f"4 l = 9 a\n{answer}").right
+    assert not swing().check(f"4 l = 8 a\n{ROW}").right
+    assert not swing().check("4 l = 9 a").right

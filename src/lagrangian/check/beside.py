@@ -25,6 +25,7 @@ from lagrangian.check.places import (
     rests,
     rests_without_rates,
 )
+from lagrangian.check.reading.prose.places_said import AT
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
@@ -36,7 +37,10 @@ from lagrangian.read.letters import key
 _D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
 _SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
 """A derivative on the left: dI/dθ = …, which is said of all positions unless it is zero."""
-AT_PLACE = "it is about one position"
+UNITS = frozenset("mNJ")
+"""Units in which an answer gives a value, and letters of systems."""
+ROUNDED = 0.005
+"""By which part of its largest term a sum in rounded numbers may miss zero."""
 BELOW = "its sentence is about a special motion"
 _ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 
@@ -52,7 +56,7 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    values = [line for line in lines if line.kind == "identity" and _is_of_rest(truth, line)]
+    values = [x for x in lines if x.kind == "identity" and (_is_of_rest(truth, x) or _is_of_place(truth, x))]
     complete = comparison.rank >= truth.n
     if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
@@ -60,13 +64,11 @@ def beside(
     moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
     placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
-    aside |= {id(line): AT_REST for line in values}
+    aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it is about one position" for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
     }
-    places |= {line.number for line in lines if "place" in line.beside}
-    aside |= {id(x): AT_PLACE for x in lines if complete and x.number in places and _is_of_place(truth, x)}
     others = [line for line in wrong if id(line) not in aside and (complete or line.beside)]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
@@ -110,9 +112,32 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
 
 
 def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a second value of a name that changes is about the position that its line gives: θ = 30°: l = 0.36."""
-    moves = bool(line.expr.atoms(AppliedUndef)) and not line.expr.has(sp.Derivative)
-    return line.kind == "identity" and moves and not zero_everywhere(truth, line.expr)
+    """Whether a statement on a position holds at the one that words in front of it say: at θ = 90°: ℓ = √(a² + b²)."""
+    said = [x.removeprefix(AT).partition(" = ") for x in line.beside if x.startswith(AT)]
+    places = {c.symbol: _number(value) for c in truth.model.coordinates for name, _, value in said if c.name == name}
+    if not places or line.expr.has(sp.Derivative) or not line.expr.has(*places):
+        return False
+    there = cast("sp.Expr", line.expr.xreplace(places))
+    return zero_everywhere(truth, there) or _is_rounded_zero(truth, there)
+
+
+def _is_rounded_zero(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression with decimal numbers vanishes with the values of the system, as far as these are given;
+    0.36 m may be metres where m is a mass."""
+    values = {p.symbol: sp.Float(p.value) for p in truth.model.parameters if p.value is not None}
+    parts = [x.as_coeff_Mul() for x in sp.Add.make_args(expr)]
+    listed = [c if str(x) in UNITS and not c.is_Integer else c * x for c, x in parts]
+    terms = [sp.N(x.xreplace(values)) for x in listed]
+    if not expr.free_symbols or not all(x.is_Float or x.is_Rational for x in terms):
+        return False
+    return bool(abs(sum(terms)) <= ROUNDED * max(abs(x) for x in terms))
+
+
+def _number(written: str) -> sp.Expr:
+    """A value such as 90*pi/180 or -1*pi/2."""
+    sign = -1 if written.startswith("-") else 1
+    factor, _, divisor = written.lstrip("-").partition("*pi/")
+    return sign * sp.Rational(factor) * (sp.pi / int(divisor) if divisor else 1)
 
 
 def _once(written: str) -> str:

@@ -10,8 +10,9 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.stated import StatedQuantity, driving, given, left_sides
-from lagrangian.check.verdict import Finding, Status
+from lagrangian.check.stated import StatedQuantity, driving, given, index_of, left_sides
+from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.model import time
 from lagrangian.page.formula import text
 
 _JUDGED = ("T", "V", "L", "D", "Xi")
@@ -25,7 +26,8 @@ def right_together(truth: Reference, findings: Sequence[Finding]) -> list[Findin
 
         d/dt ∂ℒ/∂ξ̇_i − ∂ℒ/∂ξ_i + ∂D/∂ξ̇_i − Ξ_i = 0.
 
-    What is not stated counts as ours; but dampers are in a D that is stated, or in Ξ.
+    What is not stated counts as ours; but dampers are in a D that is stated, or in Ξ. Derivatives of ℒ by a coordinate
+    or its rate are right then if they are those of the ℒ that is stated.
     """
     lines = [f.line for f in findings if f.line.kind in _JUDGED]
     wrong = [f for f in findings if f.status is Status.WRONG and f.line.kind in _JUDGED]
@@ -38,7 +40,21 @@ def right_together(truth: Reference, findings: Sequence[Finding]) -> list[Findin
     if any(all(f.line.expr is not x for x in used) for f in wrong) or not all(_is_right(truth, x) for x in whole):
         return list(findings)
     note = text("together with the other energies and forces, it gives the right equations")
-    return [replace(f, status=Status.EQUIVALENT, note=note, differences=()) if f in wrong else f for f in findings]
+    wrong += [f for f in findings if f.status is Status.WRONG and _is_derivative(truth, f.line, whole[0])]
+    same = {id(f) for f in wrong}
+    right = [replace(f, status=Status.EQUIVALENT, note=note, differences=(), follows=False) for f in findings]
+    return [x if id(f) in same else f for f, x in zip(findings, right, strict=True)]
+
+
+def _is_derivative(truth: Reference, line: AnsweredLine, own: StatedQuantity) -> bool:
+    """Whether a line gives ∂ℒ/∂ξ, ∂ℒ/∂ξ̇ or the rate of this, of the ℒ that an answer states."""
+    i = index_of(truth, line.name)
+    if i is None or line.kind not in ("slope", "p", "p-rate"):
+        return False
+    c = truth.model.coordinates[i]
+    value = bounded.diff(own.lagrangian(truth), c.symbol if line.kind == "slope" else c.rate)
+    value = bounded.diff(value, time) if line.kind == "p-rate" else value
+    return zero_everywhere(truth, line.expr - value)
 
 
 def _is_right(truth: Reference, own: StatedQuantity) -> bool:

@@ -2,6 +2,8 @@
 
 Such a line says nothing of the motion. It is right if each of its numbers is what the letters are with the values of
 the system, or with those that the answer states, rounded to its last digit; otherwise it is told by its own number.
+Nor is a relation of parameters an equation of motion if it holds with these values, m₁ a = m₂ b: lines in numbers need
+it, and lines in letters are judged for all values in any case.
 """
 
 from __future__ import annotations
@@ -96,7 +98,9 @@ def judged_with_amounts(
             kept += [line for line in same if not any(line is x for x in said) and not _is_number(line)]
         else:
             kept += same
+    kept, told = _without_relations(truth, kept, own)
     verdict = judge(kept)
+    verdict = replace(verdict, notes=(*verdict.notes, *told)) if told else verdict
     if not wrong:
         return verdict
     findings: Sequence[Finding] = [_following(f, wrong, off) for f in verdict.findings]
@@ -168,6 +172,18 @@ def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> 
             terms = [_amount(truth, x, values) for x in sp.Add.make_args(line.expr)]
             found += [line] if abs(sum(terms)) <= EXACT * max(map(abs, terms)) else []
     return found
+
+
+def _without_relations(
+    truth: Reference, lines: Sequence[AnsweredLine], values: _Values
+) -> tuple[list[AnsweredLine], tuple[Text, ...]]:
+    """The lines, in which relations of several parameters alone that hold with the values of the system are statements,
+    and notes that say so."""
+    found = [x for x in lines if len(bounded.symbols(x.expr)) > 1 and bounded.operations(x.expr) <= LONGEST]
+    held = {id(x): x for x in _links(truth, found, values)}
+    kept = [replace(x, kind="statement") if id(x) in held else x for x in lines]
+    why = "it is a relation of parameters that holds with the values of the system, and no equation of motion"
+    return kept, tuple(text(x) for x in dict.fromkeys(f"'{x.text}' was not judged: {why}." for x in held.values()))
 
 
 def _number_in(expr: sp.Expr) -> sp.Expr:

@@ -178,7 +178,8 @@ def with_primes_as_slopes(
     text: TracedText, system: Callable[[str], bool], changes: Callable[[str], bool], *, latex: bool
 ) -> TracedText:
     """Return an answer in which the derivative of a function of one coordinate by this coordinate, dΘ/dr or Θ'(r) after
-    Θ(r) = …, is written ∂Θ/∂r; Θ' alone, too, if rates have dots and nothing that moves has a prime.
+    Θ(r) = …, is written ∂Θ/∂r; Θ' alone, too, if rates have dots and nothing that moves has a prime, but not where its
+    value holds a rate: Θ' = 2 m r ṙ is Θ̇.
 
     ``system`` says whether a name belongs to the system; d/dr of such a function is read elsewhere.
     """
@@ -199,13 +200,23 @@ def with_primes_as_slopes(
     for name, (top, of) in found.items():
         if changes(name):
             continue
-        forms = _primed(name, of, alone=not moving) if name in primed else []
+        rated = moving or (name in primed and _is_given_rate(top, text.text))
+        forms = _primed(name, of, alone=not rated) if name in primed else []
         forms += differentiated(name, of) if not system(name) and name not in _LETTERS else []
         new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
         edits += [(*m.span(), apart_from(text.text, m, new)) for form in forms for m in re.finditer(form, text.text)]
     return text.edited(apart(sorted(edits)))
 
 
+def _is_given_rate(name: str, text: str) -> bool:
+    """Whether a statement gives a name with a prime a value in which a rate stands: d' = cos β ds/dt, d' = ṡ cos β."""
+    given = rf"(?<![\w\\]){re.escape(name)}\s?['’′]\s{{0,3}}&?\s{{0,3}}=(?![=>])(?P<value>[^\n,;$]{{1,300}})"
+    values = (normalize("NFD", m["value"]) for m in islice(re.finditer(given, text), _MAX))
+    return any(_DOTTED.search(x) or QUOTIENT.search(x) for x in values)
+
+
+QUOTIENT = re.compile(r"(?<![^\W\d_])d[ ]?\\?[^\W\d_]\w{0,15}\}?[ ]?(?:/[ ]?|\{)d[ ]?t(?![^\W\d_])")
+"""A rate as a quotient, also in LaTeX: ds/dt."""
 _APART = "$([{=,;:"
 """Signs behind which nothing has to stand apart."""
 

@@ -33,12 +33,16 @@ _GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S
 _TWICE = re.compile(r"['’′]{2}|[\u0308ẍÿẅ¨]|ddot|dd\b")
 
 
-def with_derivatives(text: TracedText) -> TracedText:
-    """Return a plain text in which every derivative by time says of what it is one."""
+def with_derivatives(text: TracedText, *, latex: bool = False) -> TracedText:
+    """Return a text in which every derivative by time in plain text says of what it is one; in ``latex`` on lines
+    without commands and mathematics between delimiters."""
     edits: list[tuple[int, int, str]] = []
     above: str | None = None
     stems = {m["by"] for m in _PARTIAL.finditer(text.text)}
     for line in re.finditer(r"[^\n]+", text.text):
+        if latex and ("\\" in line.group() or "$" in line.group()):
+            above = None
+            continue
         slopes = [m for m in _PARTIAL.finditer(text.text, *line.span()) if _is_rate(m["by"], stems)]
         begins = _BEGINS.match(text.text, *line.span())
         if begins is not None and above is not None:

@@ -19,8 +19,10 @@ _CALLED_ENERGY = re.compile(r"[ \t]*+(?P<word>[^\W\d_]{4,20})[ \t]+(?=[^\W\d]\*?
 _BULLET = re.compile(r"\s*[*+][ \t]+(?=[\w(\[])")
 _EQUATION = r"(?:[Ee]qn?|[Ee]quation|[Gg]l|[Gg]ln|[Gg]leichung|EOM|DGL|BWG|[Éé]q)"
 _NUMBER = r"\d{1,3}(?:\.\d{1,3}){0,2}[a-z]?['′*]{0,2}"
+_OF_CHAPTER = r"(?:[IVX]{1,4}|[A-Z])\.\s?\d{1,2}[a-z]?['′*]{0,2}"
+"""A number with that of its chapter: II.1, A.2."""
 _NUMBERED = re.compile(
-    rf"\s*(?:\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"
+    rf"\s*(?:[(\[]\s*{_OF_CHAPTER}\s*[)\]]|\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"
     rf"|{_EQUATION}\.?\s*[(\[]?{_NUMBER}[)\]]?[.:]?|{_NUMBER}\s?(?:[.)]{{1,2}}|:)|(?P<open>[a-h](?=\))|[ivx]{{1,5}}|[IVX]{{1,4}})[.)])"
     r"(?=\s+(?:=+>|[^\s*/^=]))"
 )
@@ -90,7 +92,7 @@ _ENERGY = re.compile(r"\s*+(?:[-*•+]\s+)?(?P<name>T\*?|[VUD]|E_?(?:kin|pot))\s
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
 _TRAIL = re.compile(rf"(?<=[\w\u0307\u0308)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
 _LEADERS = r"\s*+(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]{0,300}+"
-_MARK = r"\d{1,3}[a-z]?['′*]{0,2}|[ivx]{1,4}|[IVX]{2,4}|[A-Z]\.?-?\d{1,2}|\*{1,3}"
+_MARK = rf"{_OF_CHAPTER}|\d{{1,3}}[a-z]?['′*]{{0,2}}|[ivx]{{1,4}}|[IVX]{{2,4}}|[A-Z]\.?-?\d{{1,2}}|\*{{1,3}}"
 _BEHIND = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?(?:{_MARK})\s*[)\]]"
 _DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
 _END = r"\s*+[.,;]?\s*+\Z"

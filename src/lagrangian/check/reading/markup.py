@@ -31,6 +31,12 @@ _ITALIC_NAME = re.compile(
 """A name between single marks in front of its value: *p* = m x'."""
 _ITALIC_REMARK = re.compile(r"(?<=[ \t])(\*|_)(\([^\W\d_]{2}[^()*=\n]{1,60}\))\1(?=[ \t.,;]*$)", re.MULTILINE)
 """A remark in brackets between single marks at the end of a line: *(divided by 2)*."""
+_ITALIC_SENTENCE = re.compile(
+    r"(?:(?<=^)|(?<=[.;:!?)][ ]))(\*|_)"
+    r"((?=[^\n]{0,160}[^\W\d_]{4})(?=\S{1,40}[ ]\S{1,40}[ ]\S)[^\W\d][^*=+/^\n]{8,160}[.!?])\1(?=[ \t]*$)",
+    re.MULTILINE,
+)
+"""A sentence of words between single marks, which may begin with a name: *I depends on r!*"""
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
 _QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
 _OF_CODE = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=`)", re.MULTILINE)
@@ -63,6 +69,12 @@ _BEHIND_SENTENCE = re.compile(
     re.MULTILINE,
 )
 """A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
+_ABOUT_NAME = re.compile(
+    r"(?<=[\w)²³])\.[ ](?=[*_]?[^\W\d_]\w{0,11}[ ]"
+    r"(?:depends|varies|changes|is|isn['’]t|hängt|ändert|ist|dépend|varie|n['’]est)[ ][^=+/^²·\n]{1,80}$)",
+    re.MULTILINE,
+)
+"""The full stop of a statement behind which a sentence says something of a name: … = J + m r². I depends on r!"""
 _LABELLED = re.compile(r"^[ \t]*+[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ][^\n]{1,400}$", re.MULTILINE)
 _NEXT_LABEL = re.compile(r"(?<![^\W\d_]{3})\.[ ](?=[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ])")
 """The full stop behind a formula with a label, where another label follows: Cart: ½ M x'^2. Rod: ½ J φ'^2."""
@@ -80,15 +92,16 @@ def without_markup(text: str) -> str:
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     text = _BOLD_LINE.sub(lambda m: f"{m['lead']}  {m['line']}  ", text)
     text = _STATED_CODE.sub(lambda m: f";{m['code']};", text)
-    for form in (_BOLD, _CODE, _ITALIC, _ITALIC_NAME, _ITALIC_REMARK):
+    for form in (_BOLD, _CODE, _ITALIC, _ITALIC_NAME, _ITALIC_REMARK, _ITALIC_SENTENCE):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
 
 
 def sentences_apart(text: TracedText) -> TracedText:
     """Return an answer in which a bullet or a label behind a sentence of words begins a line, and a statement behind a
-    formula that a full stop ends; so does each of several labels with a formula on one line."""
-    text = text.sub(_LABELLED, lambda m: _NEXT_LABEL.sub(".\n", m.group()))
+    formula that a full stop ends; so does each of several labels with a formula on one line, and a sentence of words
+    about a name."""
+    text = text.sub(_ABOUT_NAME, lambda _: ".\n").sub(_LABELLED, lambda m: _NEXT_LABEL.sub(".\n", m.group()))
     return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n").sub(_BEHIND_FORMULA, lambda _: ";")
 
 

@@ -28,6 +28,7 @@ from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.layout import with_open_text
+from lagrangian.check.reading.latex.numbers_with_units import with_siunitx
 from lagrangian.check.reading.latex.said_names import with_named_formulas
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
@@ -234,8 +235,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
 def _in_latex(said: TracedText) -> TracedText:
     """An answer in LaTeX with degrees as parts of π, and without sets and numbers of rows."""
-    degrees = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
-    return with_derivatives_in_latex(with_open_text(without_sets(degrees.sub(_ROW_OF, lambda _: ""))))
+    degrees = with_siunitx(said).sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
+    rows = with_derivatives(degrees.sub(_ROW_OF, lambda _: ""), latex=True)
+    return with_derivatives_in_latex(with_open_text(without_sets(rows)))
 
 
 def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:

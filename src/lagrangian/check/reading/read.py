@@ -40,6 +40,7 @@ from lagrangian.check.reading.programs.marks import (
 )
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
+from lagrangian.check.reading.prose.places_said import with_places
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words, terms_alone
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
@@ -254,7 +255,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         notes,
         described_names(given, lines.names.known),
         frozenset(lines.unread) | chosen_names(given),
-        remarks.said,
+        with_places(remarks.said, given, lines.names),
         tuple(partial(_answer, given, model, place, x, []) for x in others),
         together(lines.doubts) if lines.doubts else None,
         bool(lines.lacking),

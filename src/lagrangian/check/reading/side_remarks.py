@@ -25,7 +25,7 @@ from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.words_beside import REST, words_beside
 from lagrangian.model import Model
-from lagrangian.read.letters import key, undotted
+from lagrangian.read.letters import undotted
 from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
 
@@ -160,7 +160,7 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
                 *(["lacks"] if r.lacks else []),
                 *(["rest"] if rests else []),
             }
-    for k, words in enumerate(words_beside(lines, {key(c.name) for c in model.coordinates})):
+    for k, words in enumerate(words_beside(lines)):
         if words:
             said[k + 1] = said.get(k + 1, frozenset()) | words
     return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from itertools import islice
 from unicodedata import normalize
 
-from lagrangian.check.reading.arguments import apart_from, is_in_chain
+from lagrangian.check.reading.arguments import QUOTIENT, apart_from, is_in_chain
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key
 
@@ -47,7 +47,9 @@ def with_primes_of_slopes(
     for match in islice(_STATED.finditer(text.text), MOST):
         name, value = match["name"], match["value"]
         by = {_bare(x) for x in _letters(value) if moves(_bare(x))}
-        rated = _DOTS.search(normalize("NFD", value)) is not None or re.search(r"['’′]", value)
+        rated = (
+            _DOTS.search(normalize("NFD", value)) is not None or re.search(r"['’′]", value) or QUOTIENT.search(value)
+        )
         if len({key(x) for x in by}) == 1 and not rated and not taken(_bare(name)) and not moves(_bare(name)):
             found.setdefault(name, next(x for x in _letters(value) if moves(_bare(x))))
     edits: list[Edit] = []

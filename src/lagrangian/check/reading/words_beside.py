@@ -1,13 +1,12 @@
-"""What the words of a line say of its statements: that they are about rest, one position, or special motions alone."""
+"""What the words of a line say of its statements: that they are about rest or special motions alone."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, SPECIAL
 from lagrangian.check.reading.prose.remarks import accelerates_in
-from lagrangian.read.letters import key
 
 REST = re.compile(
     r"\b(?:at rest|(?:stand|stay|remain)s? still|steht still|rates (?:are )?zero|hover|"
@@ -21,12 +20,6 @@ _BRACKETED = re.compile(r"\((?P<inside>[^()=\n]{1,80}=[^()=\n]{1,60})\)[.,;]?[ \
 """A relation in brackets at the end of a sentence."""
 _SENTENCE = 200
 """The most characters of a sentence in front of a bracket."""
-_PLACE = re.compile(
-    r"(?<![^\W_])(?:at|for|with|bei|für|mit|pour|à)[ \t$]{1,3}\\?(?P<name>[^\W\d]\w{0,15}+)[ \t$]{0,3}=[ \t$]{0,3}"
-    r"[-−]?\d[\d.,]{0,8}[ \t]?(?:°|\^\{?\\circ|\\degree|deg\b|rad\b)",
-    re.IGNORECASE,
-)
-"""A position in degrees or radians that is chosen: at θ = 90°."""
 _WORD = re.compile(r"[^\W\d_]{2,}")
 _FEWEST_WORDS = 2
 """Fewer words are no sentence."""
@@ -38,9 +31,9 @@ _GOES_ON = re.compile(
 """What ends a line whose sentence goes on below."""
 
 
-def words_beside(lines: Sequence[str], moving: Collection[str]) -> Iterator[frozenset[str]]:
-    """Of every line, which of these words say of its statements: "rest"; "place" for a value of a coordinate, whose
-    names in the common form are ``moving``; "aside" and "special" for special motions, in brackets and in sentences.
+def words_beside(lines: Sequence[str]) -> Iterator[frozenset[str]]:
+    """Of every line, which of these words say of its statements: "rest", and "aside" and "special" for special motions,
+    in brackets and in sentences.
 
     What is said of rest holds for the lines below whose sentence goes on, up to a blank line or an acceleration.
     """
@@ -51,8 +44,6 @@ def words_beside(lines: Sequence[str], moving: Collection[str]) -> Iterator[froz
             resting = False
         said = {"rest"} if REST.search(line) or resting else set[str]()
         resting = resting or ("rest" in said and _GOES_ON.search(line.rstrip()) is not None)
-        if not accelerates and any(key(m["name"]) in moving for m in _PLACE.finditer(line)):
-            said.add("place")
         if "(" in line and not accelerates and _is_aside(line):
             said.add("aside")
         if not accelerates and _is_special(line):

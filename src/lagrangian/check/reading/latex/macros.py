@@ -2,12 +2,14 @@ r"""Writes out macros in LaTeX: those that an answer defines, \newcommand{\st}{\
 
 \dv{t}  \dv{x}{t}  \pdv{L}{x}  \qty(…)  \vb{q}  \abs{x}  \dd t       of the package physics, \od and \pd of commath
 \flatfrac{a}{b}  \pqty{…}  \mqty(a & b \\ c & d)                    also of physics
+\let\th\vartheta                                                  another name of a command
 """
 
 from __future__ import annotations
 
 import re
 from collections import Counter
+from itertools import islice
 
 from lagrangian.check.reading.latex.layout import closing
 from lagrangian.check.reading.markup import blanked
@@ -25,11 +27,15 @@ MAX_WRITTEN = 120_000
 MAX_INSIDE = 8
 """How deep macros may be inside others."""
 
+LONGEST_SHORT = 24
+"""The most characters of what stands for a macro that is only another name."""
+
 _DEFINES = re.compile(
     r"\\(?:(?:re)?newcommand|providecommand|DeclareRobustCommand|DeclareMathOperator|def|gdef)\*?\s*+"
     r"\{?\s*+\\(?P<name>[A-Za-z]++|[^A-Za-z\s])\s*+\}?\s*+"
     r"(?:\[(?P<count>\d)\]\s*+(?:\[(?P<first>[^\]]{0,80})\])?|(?P<hashes>(?:#\d)*+))\s*+\{"
 )
+_LET = re.compile(r"\\let\s*+\\(?P<new>[A-Za-z]++|[^A-Za-z\s])\s*+=?\s*+\\(?P<old>[A-Za-z]++|[^A-Za-z\s])")
 _USED = re.compile(r"\\(?P<name>[A-Za-z]+|[^A-Za-z\s])(?P<star>\*?)")
 _PARAMETER = re.compile(r"#(\d)")
 _FUNCTION = re.compile(r"\s*+\\(?:sin|cos|tan|cot)\s*+\\?\w++(?:\{\w{1,12}\})?\s*+")
@@ -103,7 +109,7 @@ def _too_long(source: Source, at: int) -> ParseError:
 
 def _definitions(text: str, source: Source) -> tuple[str, dict[str, Macro]]:
     """The text with all definitions replaced by spaces, and the macros by name."""
-    macros = dict(_PACKAGES)
+    text, macros = _other_names(text, dict(_PACKAGES))
     at = 0
     for _ in range(MAX_MACROS + 1):
         match = _DEFINES.search(text, at)
@@ -118,6 +124,34 @@ def _definitions(text: str, source: Source) -> tuple[str, dict[str, Macro]]:
         text = blanked(text, match.start(), end)
         at = end
     raise source.error(f"more than {MAX_MACROS} macros", at, fix="write the formulas out", code="E703")
+
+
+def _other_names(text: str, macros: dict[str, Macro]) -> tuple[str, dict[str, Macro]]:
+    """The text with all \\let replaced by spaces, and the macros with those that they define; names that are exchanged,
+    \\let\\old\\phi \\let\\phi\\varphi \\let\\varphi\\old, stay as they are."""
+    lets = {m["new"]: m["old"] for m in islice(_LET.finditer(text), MAX_MACROS)}
+    for new, old in lets.items():
+        if old not in lets or all(x not in (new, old) for x in _followed(old, lets)):
+            macros[new] = Macro(f"\\{old}")
+    return _LET.sub(lambda m: " " * len(m.group()), text), macros
+
+
+def _followed(name: str, lets: dict[str, str]) -> list[str]:
+    """What a name stands for, and what that does, until none is left or one comes again."""
+    found: list[str] = []
+    while (name := lets.get(name, "")) and name not in found:
+        found.append(name)
+    return found
+
+
+def short_names(text: str) -> dict[str, str]:
+    """Return the macros of an answer that are another name, \\newcommand{\\q}{\\varphi}, with what they stand for."""
+    found = {m["new"]: f"\\{m['old']}" for m in islice(_LET.finditer(text), MAX_MACROS)}
+    for match in islice(_DEFINES.finditer(text), MAX_MACROS):
+        body = text[match.end() : closing(text, match.end()) - 1].strip()
+        if len(body) <= LONGEST_SHORT and not match["count"] and not match["hashes"]:
+            found[match["name"]] = body
+    return found
 
 
 def _once(text: str, origins: list[int], macros: dict[str, Macro], source: Source) -> tuple[str, list[int]] | None:

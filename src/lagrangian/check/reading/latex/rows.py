@@ -55,11 +55,19 @@ _SHORT = re.compile(r"\w{1,20}\Z")
 _LINKS = frozenset(
     ["and", "where", "with", "so", "then", "for", "or", "hence", "thus", "therefore", "gives", "if", "when", "let"]
 )
+_BRACKETED = re.compile(
+    r"(?<=[\w})\]'’′])(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s?\})++[(\[][\s.,;:!~]*+\x00[\s\x00.,;:!~]*+[)\]]"
+    r"(?=(?:\s|~|&|\\[,;:! ])*+(?:[.,;]|\\\\|\\q?quad(?![A-Za-z])|\\end|\Z))"
+)
+r"""Words in brackets behind a statement: \Theta = J + m s^2 \quad (\text{about the hinge})"""
 _LISTS = re.compile(r"\\(?:operatorname|mathrm)\{(?:atan2|min|max)\}|\\(?:min|max)(?![A-Za-z])|atan2")
 _SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
-_NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
+_OF_CHAPTER = r"(?:[IVX]{1,4}|[A-Z])\.\s?\d{1,2}[a-z]?"
+_NUMBER_BEFORE = re.compile(
+    rf"{_SPACE}\(\s*(?:\d{{1,3}}[a-z]?|{_OF_CHAPTER})\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL
+)
 _LETTER_BEFORE = re.compile(
     rf"{_SPACE}(?:(?:[^\W\d_]{{2,12}}\.?\s+){{0,2}}(?:\d{{1,3}}[a-z]?|[a-h]|[ivx]{{1,4}})\s?\)[.:]?|\((?:i{{2,3}}|i?v|vi{{1,3}})\))"
     rf"(?={_SPACE}[^\s=+*/^])(?=.*=)",
@@ -82,7 +90,7 @@ _TAG_BEFORE = re.compile(
 )
 """The name of an equation in brackets, or of those that were added, apart from it: (E_x)+(E_u)\\quad& …"""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
-_NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
+_NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{_OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
 _ARROWS = (
     r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
@@ -122,7 +130,7 @@ def latex_rows(text: str) -> list[AnswerRow]:
         return _statements(text, 0, lines=True)
     rows: list[AnswerRow] = []
     found = sorted([*found, *_bare(text, found)])
-    for start, inside in [x for x in found if "=" in x[1] and not _is_condition(text, *x)] or found:
+    for start, inside in [x for x in found if "=" in x[1] and not _is_aside(text, *x)] or found:
         if len(rows) > MAX_STATEMENTS:
             break
         rows += _statements(inside, start, lines=False)
@@ -132,6 +140,22 @@ def latex_rows(text: str) -> list[AnswerRow]:
 _IF = re.compile(rf"(?<!\w)(?:{'|'.join(sorted(IF))})\s{{1,3}}(?:\$|\\\()\Z", re.IGNORECASE)
 _SINGLE = re.compile(r"\s*\\?[^\W\d]\w*(?:\{\w+\})?\s*=")
 _MOVES = re.compile(r"\\d?dot|['’′]")
+
+
+_LEVEL = re.compile(r"\s*(?P<energy>[TVU]|E_(?:p|\{?(?:\\\w{4,6}\{)?pot\}{0,2}))\s*=\s*0\s*")
+_AT_PLACE = re.compile(
+    r"(?:\$|\\\))\s{1,3}(?:in|at|for|if|when|on|where|bei|im|am|an|auf|für|wenn|falls|pour|en|au|à|dans|si)[ \n]"
+    r"(?!general)",
+    re.IGNORECASE,
+)
+
+
+def _is_aside(text: str, start: int, inside: str) -> bool:
+    """Whether a formula is a condition, or says where an energy that another one gives is 0: $V = 0$ at the hinge."""
+    level = _LEVEL.fullmatch(inside)
+    if level is None or _AT_PLACE.match(text, start + len(inside)) is None:
+        return _is_condition(text, start, inside)
+    return re.search(rf"(?<![\w\\]){re.escape(level['energy'])}\s*&?\s*=(?!\s*0\s*(?:\$|\\\)))", text) is not None
 
 
 def _is_condition(text: str, start: int, inside: str) -> bool:
@@ -236,7 +260,7 @@ def _without_words(text: str) -> str:
             text = blank(text, match.start(), end)
             text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
         at = end
-    return text
+    return _BRACKETED.sub(lambda m: re.sub(r"[()\[\]]", " ", m.group()), text)
 
 
 def _unboxed(text: str) -> str:

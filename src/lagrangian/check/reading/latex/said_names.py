@@ -2,6 +2,7 @@ r"""Names that an answer in LaTeX gives otherwise than by a formula of its own: 
 
 \underbrace{(J + m l^2)}_{\Theta} \ddot\theta = …        $\Theta = (J + m l^2)$ in front, where \Theta is used again
 $S$ = tension in the hitch $= k u + c\dot u$              tension in the hitch $S = k u + c\dot u$
+$\Theta$ & $= J + m l^2$ \\                               $\Theta = J + m l^2$, in a row of a table
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Callable
 from itertools import islice
 
 from lagrangian.check.reading.latex.layout import closing
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST = 40
 """The most braces, and sentences, that are looked at."""
@@ -34,6 +35,10 @@ _IN_WORDS = re.compile(
     r"(?P<words>(?:[^\W\d_][^\W\d_’'-]{1,20}[ \t]++){1,8})\$(?P<sign>[ \t]*+=)(?![=>])"
 )
 """A name, words that say what it is, and its value in a formula of its own."""
+_IN_CELL = re.compile(
+    rf"\$(?P<new>{_NAME})\$[ \t]*+[&|][ \t]*+(?:[^\W\d_][^$&|\\\n=]{{0,80}})?\$(?P<sign>[ \t]*+=)(?![=>])"
+)
+"""A name and its value in cells of a table that stand beside each other."""
 
 
 def with_named_formulas(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
@@ -49,7 +54,10 @@ def _with_names_in_words(written: TracedText, taken: Callable[[str], bool]) -> T
             continue
         edits.append((match.start(), match.start("words"), " "))
         edits.append((*match.span("sign"), f"{match['new']} ="))
-    return written.edited(edits)
+    for match in islice(_IN_CELL.finditer(written.text), MOST):
+        if not taken(_bare(match["new"])) and not _is_given(written.text, match["new"]):
+            edits.append((*match.span("sign"), f"{match['new']} ="))
+    return written.edited(apart(sorted(edits)))
 
 
 def _with_named_braces(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -153,7 +153,13 @@ class Words:
             return True
         if word[:1] == "d" and (undotted(word)[1] or word in self._primed) and self.is_name("d"):
             return False  # dφ̇ and dphi' are d φ̇, where d is a damper
-        return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
+        rates = (stem for _, stem in spelled_rates(word) if not self._is_input_times(stem, word))
+        return any(self.names.changes(stem) or key(stem) in self._own for stem in rates)
+
+    def _is_input_times(self, stem: str, word: str) -> bool:
+        """Whether a word is the product of an input, of which no system has a rate, and of a d of the system: Fd."""
+        behind = set(word.removeprefix(stem)) == {"d"} and bool(self.names.scope.meanings("d")[0])
+        return behind and self.names.scope.meanings(stem)[0][:1] in [[x.name] for x in self.names.model.inputs]
 
     def is_name(self, word: str) -> bool:
         """Whether the system or the answer has this name; energies do not count."""

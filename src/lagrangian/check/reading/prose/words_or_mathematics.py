@@ -347,9 +347,12 @@ def moves(text: str) -> bool:
     return _RATE.search(text) is not None
 
 
+_BY_TIME = re.compile(r"(?<!\w)d[ ]?/[ ]?dt(?!\w)")
+
+
 def is_statement(text: str, words: Words) -> bool:
-    """Whether a row has two sides, which consist of names and numbers."""
-    named = _IDENTIFIER.findall(text)
+    """Whether a row has two sides, which consist of names and numbers, and d/dt of these."""
+    named = _IDENTIFIER.findall(_BY_TIME.sub(" ", text))
     both = all(side.strip() for side in text.split("=")) and "=" in text
     return both and bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
 

@@ -20,6 +20,7 @@ from lagrangian.check.reading.markup import blanked
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.check.reading.said.equated_letters import equated_letters
+from lagrangian.check.reading.said.tabled_letters import tabled_letters
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, find, key, normal, undotted
@@ -244,6 +245,15 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
             sure = re.search(_INSTEAD, match.group()) is not None
             for a, b in zip(new, own, strict=True):
                 yield DeclaredLetter(a, system.find(b)[0], match.span(), sure)
+    for pairs, span in tabled_letters(text, _bare):
+        pairs = [(a, b) for a, b in pairs if key(a) != key(b)]
+        if (
+            pairs
+            and all(_may_be(a, b, system) for a, b in pairs)
+            and all(b <= span[0] or span[1] <= a for a, b in spans)
+        ):
+            spans.append(span)
+            yield from (DeclaredLetter(a, system.find(b)[0], span, True) for a, b in pairs)
     for match in _LISTED.finditer(text):
         first = max(0, match.start() - 2 * LONGEST)
         said = _SENTENCE.split(text[first : match.start()])[-1]
