@@ -64,7 +64,7 @@ def beside(
     moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
     placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
-    aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it is about one position" for line in values}
+    aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it holds under its condition" for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
@@ -112,9 +112,11 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
 
 
 def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a statement on a position holds at the one that words in front of it say: at θ = 90°: ℓ = √(a² + b²)."""
+    """Whether a statement holds at the position, or for the constant, that words in front of it say: at θ = 90°:
+    ℓ = √(a² + b²); for n = 1: J = J1 + J2."""
     said = [x.removeprefix(AT).partition(" = ") for x in line.beside if x.startswith(AT)]
-    places = {c.symbol: _number(value) for c in truth.model.coordinates for name, _, value in said if c.name == name}
+    own = (*truth.model.coordinates, *truth.model.parameters)
+    places = {x.symbol: _number(value) for x in own for name, _, value in said if x.name == name}
     if not places or line.expr.has(sp.Derivative) or not line.expr.has(*places):
         return False
     there = cast("sp.Expr", line.expr.xreplace(places))

@@ -62,6 +62,10 @@ _CUE = re.compile(
     r"f(?:ü|ue|[\\ ]?\"[{ ]?u[} ]?)r|sofern|mit|ohne|setzt|setze|si|pour|sans|avec)(?![^\W_])",
     re.IGNORECASE,
 )
+_IF = re.compile(
+    r"\W{0,4}(?:if|when|wenn|falls|si)\b(?P<said>[^,;:\n]{3,120})[,;:](?P<then>[^=\n]{0,300})\Z", re.IGNORECASE
+)
+"""A sentence with a condition in front and no equation behind it."""
 _TERM = re.compile(r"[-+*/^²'’′:]|\w\(")
 """What stands between a condition and the word that begins it only if a formula begins there: for ẍ: ẍ = x θ̇² + …"""
 _LABEL = re.compile(rf"[ \t(]*+{_NAME}[ \t]*(?:->|→|=)[ \t]*(?:{_SIMPLE})(?:[ \t]*[,;][^:=\n]{{1,60}})?[ \t]*:")
@@ -215,7 +219,7 @@ def _is_whole(part: str) -> bool:
 
 def _states(written: str, model: Model) -> bool:
     """Whether a part of a text states an energy, a generalized force or a derivative of an energy."""
-    if _SUBJECT.search(written):
+    if any("=" in written[m.end() :] for m in _SUBJECT.finditer(written)):
         return True
     stated = (m["name"] for m in _STATED.finditer(written) if m["zero"] is None)
     names = [x.lstrip("\\").replace("{", "").replace("}", "") for x in stated]
@@ -275,7 +279,7 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
         led = _LABEL.match(part) is not None or _LABEL_IN_WORDS.match(part) is not None
         case = bool(part.strip()) and _is_case(part, known, led=led)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
-        case = case or kind == "case" or (kind is not None and _leaves_out(part))
+        case = case or _is_condition(part) or kind == "case" or (kind is not None and _leaves_out(part))
         lacks = not case and _LACKS.match(part) is not None
         if case or kind or lacks or _HELD.match(part):
             last = k
@@ -285,6 +289,12 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
                 starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case, lacks
             )
         start = end
+
+
+def _is_condition(part: str) -> bool:
+    """Whether a sentence begins with if, and states nothing but its condition: if A = B, both motions are apart."""
+    told = _IF.match(part)
+    return told is not None and "=" in told["said"] and not accelerates_in(part)
 
 
 def _rest_states(part: str) -> bool:
@@ -302,15 +312,14 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
     plain = _plain(part)
     for match in _RELATION.finditer(plain):
         names = [match["left"], *re.findall(_NAME, match["chain"])]
-        if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
+        before = plain[max(0, match.start() - 80) : match.start()]
+        cues = list(_CUE.finditer(before))
+        cued = bool(cues) and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :]))
+        if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known, cued=cued):
             continue
         if not match["right"].isdigit() and _goes_on(plain, match.end(), known):
             continue
-        before = plain[max(0, match.start() - 80) : match.start()]
-        if (led or match["left"] == "t") and _begins(before, known):
-            return True
-        cues = list(_CUE.finditer(before))
-        if cues and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :])):
+        if cued or ((led or match["left"] == "t") and _begins(before, known)):
             return True
     return False
 
@@ -332,9 +341,12 @@ def _begins(before: str, known: Callable[[str], bool]) -> bool:
     )
 
 
-def _is_special(match: re.Match[str], known: Callable[[str], bool]) -> bool:
-    """Whether a relation is no value of a parameter and no other name of a coordinate: x = 0, m1 = m2, φ' = W."""
+def _is_special(match: re.Match[str], known: Callable[[str], bool], *, cued: bool) -> bool:
+    """Whether a relation is no value of a parameter and no name of a coordinate: x = 0, m1 = m2, φ' = W; and n = 1
+    where it is ``cued`` by a word: for n = 1."""
     right = match["right"].rstrip("'’′")
+    if right == "1" and cued:
+        return True
     if match["sign"] not in ("=", "≡") or right in ("0", "∞", "pi", "π"):
         return True
     moves = match["left"][-1:] in "'’′"

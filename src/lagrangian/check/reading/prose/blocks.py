@@ -10,6 +10,8 @@ from lagrangian.check.reading.prose.remarks import accelerates_in
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _OPEN = re.compile(r"[:,][ \t*`_)}\\]*\Z|=[ \t]*\Z")
+_ENVIRONMENT = re.compile(r"[ \t]*\\(?:begin|end|item)\b")
+_LAST = re.compile(r"[ \t]*\\end\{document\}")
 _MOST_CLOSED = 12
 """The most lines of a remark in brackets."""
 _LONGEST_TITLE = 8
@@ -23,6 +25,8 @@ def _is_title(lines: Sequence[str], k: int) -> bool:
     if _HEADING.match(line) or (k + 1 < len(lines) and line.strip() and _RULE.fullmatch(lines[k + 1])):
         return True
     words = line.split()
+    if _ENVIRONMENT.match(line):
+        return False
     return "=" not in line and bool(_WORD.search(line)) and len(words) <= _LONGEST_TITLE and not accelerates_in(line)
 
 
@@ -61,6 +65,8 @@ def end_below(lines: Sequence[str], k: int) -> int:
 
 def _is_end(lines: Sequence[str], j: int, stated: bool) -> bool:
     """Whether a heading ends what stands above it: any behind an equation, a marked one anywhere."""
+    if _LAST.match(lines[j]):
+        return True
     marked = bool(_HEADING.match(lines[j])) or (j + 1 < len(lines) and bool(_RULE.fullmatch(lines[j + 1])))
     return marked or (_is_title(lines, j) and (stated or lines[j].rstrip().endswith(":")))
 
