@@ -74,7 +74,10 @@ EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = (
     r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
     rf"|\bwhere|\bwith|\band|(?<=\s)\((?={NAME}[ \t]*=[ \t]*{NAME}[ \t]*[,)])"
+    rf"|(?<=[ \t])[(\[](?={NAME}[ \t]*=(?![=>])(?![ \t]*[-−]?[\d.,/]{{1,9}}[ \t]?\w{{0,4}}[)\]])"
+    r"(?:[^()\[\]=,;:\n]|\([^()=\n]{1,40}\)){1,80}[)\]][.,;]?[ \t]*$)"
 )
+"""Where a name that gets a value may stand; also in brackets at the end of a line: (a = cos β)."""
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
