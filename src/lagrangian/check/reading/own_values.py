@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, cast
-
-import sympy as sp
-from sympy.matrices.matrixbase import MatrixBase
-
-_COMPONENT = re.compile(r"(?P<of>[^\W\d_]\w{0,12})_(?P<axis>[xyz])")
+from typing import Any
 
 
 class OwnValues:
@@ -47,13 +41,3 @@ class OwnValues:
                     continue
                 (_, above), (at, value) = given[k - 1 : k + 1]
                 yield base, at, above, value
-
-
-def component_of(written: str, matrix: Callable[[str], object]) -> sp.Expr | None:
-    """The component of a column of the answer that a name means by its index: S_x of S = (…, …); None for others."""
-    found = _COMPONENT.fullmatch(written)
-    column = None if found is None else matrix(found["of"])
-    if found is None or not isinstance(column, MatrixBase) or column.shape not in ((2, 1), (3, 1)):
-        return None
-    at = "xyz".index(found["axis"])
-    return cast("sp.Expr", column[at, 0]) if at < len(column) else None

@@ -45,8 +45,8 @@ _BEHIND = re.compile(
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
 _MEANT_IN_BRACKETS = re.compile(
     r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]{1,150}+\[[ \t]?(?P<names>[^\W\d]\w{0,12}+(?:,[ \t]?[^\W\d]\w{0,12}+){0,3})"
-    r"(?:[ \t]?:[ \t]?|[ \t](?:is|are|denotes?|ist|sind|est)[ \t])(?=[^\[\]]{0,60}[^\W\d_]{3})[^\[\]\n=+*/^()\d]{3,100}\]"
-    r"(?=[ \t]*[.,;]?[ \t]*$)",
+    r"(?:[ \t]?:[ \t]?|[ \t](?:is|are|denotes?|ist|sind|est)[ \t])(?=[^\[\]]{0,60}[^\W\d_]{3})"
+    r"[^\[\]\n=+*/^()\d]{3,100}\](?=[ \t]*[.,;]?[ \t]*$)",
     re.MULTILINE,
 )
 """The same in square brackets, also near the equation: [th: heel]."""
