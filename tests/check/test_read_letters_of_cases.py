@@ -135,6 +135,18 @@ def test_the_rates_of_components_are_judged() -> None:
     assert not right(f"{CENTRE}\n{rates.format('+')}\n{balances}")
 
 
+@pytest.mark.parametrize("axis", ["{}S", "{}_S", "S_{}"])
+def test_rates_of_components_are_the_derivatives_of_the_point(axis: str) -> None:
+    x, y = (axis.format(a) for a in "xy")
+    rates = f"{x}' = x' + e phi' cos(phi), {y}' = {{}}e phi' sin(phi)"
+    energy = f"T = 1/2 M x'^2 + 1/2 m ({x}'^2 + {y}'^2) + 1/2 J phi'^2"
+    for said in (rates, f"{rates}\n{energy}"):
+        answer = f"{CENTRE}\n{said}\n{ALONG}\n{ROUND}"
+        assert right(answer.format(""))
+        assert not right(answer.format("-"))
+        assert not right(answer.format("").replace("S = (x + e", "S = (x - e"))
+
+
 def test_energies_in_components_of_a_point() -> None:
     energies = "T = 1/2 M x'^2 + 1/2 m (xS'^2 {} yS'^2) + 1/2 J phi'^2\nV = 1/2 k x^2 + m g yS"
     assert right(f"{CENTRE}\n{energies.format('+')}\n{ALONG}\n{ROUND}")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from itertools import islice
 from typing import cast
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.read.letters import key
 
 MOST = 40
 """The most points of an answer."""
@@ -30,6 +32,11 @@ def component_names(text: str, known: Callable[[str], bool]) -> Iterator[str]:
     for name in dict.fromkeys(m["name"] for m in islice(_POINT.finditer(text), MOST)):
         if not known(name):
             yield from (f"{axis}{name}" for axis in _AXES)
+
+
+def is_component(written: str, points: Collection[str]) -> bool:
+    """Whether a name is that of a component of one of some points, given by their keys."""
+    return any((m := form.fullmatch(written)) is not None and key(m["of"]) in points for form in _FORMS)
 
 
 def component_of(written: str, matrix: Callable[[str], object]) -> sp.Expr | None:

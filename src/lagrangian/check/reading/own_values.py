@@ -13,6 +13,8 @@ class OwnValues:
     def __init__(self) -> None:
         self._values: dict[str, list[tuple[int, Any]]] = {}
         self._used: set[tuple[str, int]] = set()
+        self.rates: list[tuple[str, int, Any, int]] = []
+        """The rates that statements give names: the name, the order, the value and the number of the statement."""
 
     def define(self, base: str, value: Any, statement: int) -> None:
         """Record that a statement gives a name its value."""
