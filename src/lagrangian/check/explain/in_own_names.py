@@ -94,7 +94,7 @@ def _by_own_term(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
 def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[AnsweredLine]) -> tuple[OwnName, ...]:
     """The names with values that the wrong lines of an answer have, but for those that they define, and names of the
     system for such values that the answer has anywhere; the longest values first."""
-    used = {name for line in wrong if line.kind != "definition" for name in names_in(line)}
+    used = {x for line in wrong if line.kind != "definition" for x in names_in(line) if x != _stated_in(line)}
     taken = {key(name) for name in truth.model.symbols}
     found: dict[str, set[sp.Expr]] = {}
     symbols: dict[str, sp.Expr] = {}

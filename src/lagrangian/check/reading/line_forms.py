@@ -188,6 +188,7 @@ def define_rate(token: Token, order: int, value: Any, names: Names, bare: Collec
     w is, and other statements, of which the names without signs of rates are ``bare``, use it."""
     base = key(undotted(token)[0])
     names.rates[base, order] = value
+    names.redefined.rates.append((undotted(token)[0], order, value, names.statement))
     if order != 1 or base not in bare or base in names.defined or base in names.own or not isinstance(value, sp.Expr):
         return
     terms = [x.as_independent(sp.Derivative) for x in sp.Add.make_args(bounded.expand(value))]

@@ -14,12 +14,13 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
+from lagrangian.check.reading.components import component_of
 from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.name_hints import factors_of, hint_for
 from lagrangian.check.reading.nodes import names_in, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
-from lagrangian.check.reading.own_values import OwnValues, component_of
+from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
@@ -381,9 +382,7 @@ class Names:
                 raise source.error(what, start_of(token), fix="use the names of the system", code="E703")
             spelling = spelled(base)
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
-            hint = None
-            if len(self.unknown) < MAX_HINTS:
-                hint = hint_for(base, self.scope)
+            hint = hint_for(base, self.scope) if len(self.unknown) < MAX_HINTS else None
             self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
         return base
 

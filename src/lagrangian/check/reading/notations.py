@@ -71,6 +71,7 @@ from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
+from lagrangian.check.reading.said.running_letters import with_running_letters
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
@@ -167,7 +168,8 @@ def _with_said_letters(
 ) -> TracedText:
     """An answer in which what sentences say of its letters stands as statements."""
     latex = bool(LATEX.search(text.text))
-    listed = text if latex else with_listed_names(text, taken, lambda name: key(name) in own)
+    apart = with_running_letters(text, names.known, names.notes)
+    listed = apart if latex else with_listed_names(apart, taken, lambda name: key(name) in own)
     said = with_stated_letters(listed, names.changes, taken, latex=latex)
     return with_called_dissipation(with_values_above(said), taken)
 

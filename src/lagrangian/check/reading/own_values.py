@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, cast
-
-import sympy as sp
-from sympy.matrices.matrixbase import MatrixBase
-
-_COMPONENT = re.compile(r"(?P<of>[^\W\d_]\w{0,12})_(?P<axis>[xyz])")
+from typing import Any
 
 
 class OwnValues:
@@ -19,6 +13,8 @@ class OwnValues:
     def __init__(self) -> None:
         self._values: dict[str, list[tuple[int, Any]]] = {}
         self._used: set[tuple[str, int]] = set()
+        self.rates: list[tuple[str, int, Any, int]] = []
+        """The rates that statements give names: the name, the order, the value and the number of the statement."""
 
     def define(self, base: str, value: Any, statement: int) -> None:
         """Record that a statement gives a name its value."""
@@ -47,13 +43,3 @@ class OwnValues:
                     continue
                 (_, above), (at, value) = given[k - 1 : k + 1]
                 yield base, at, above, value
-
-
-def component_of(written: str, matrix: Callable[[str], object]) -> sp.Expr | None:
-    """The component of a column of the answer that a name means by its index: S_x of S = (…, …); None for others."""
-    found = _COMPONENT.fullmatch(written)
-    column = None if found is None else matrix(found["of"])
-    if found is None or not isinstance(column, MatrixBase) or column.shape not in ((2, 1), (3, 1)):
-        return None
-    at = "xyz".index(found["axis"])
-    return cast("sp.Expr", column[at, 0]) if at < len(column) else None

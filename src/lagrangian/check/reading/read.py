@@ -16,6 +16,7 @@ from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
+from lagrangian.check.reading.components import component_names
 from lagrangian.check.reading.defined_functions import called_definitions
 from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
@@ -51,6 +52,7 @@ from lagrangian.check.reading.said.deviations import constants_of_deviations
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
 from lagrangian.check.reading.said.mentioned import chosen_names, described_names, mentioned_names
 from lagrangian.check.reading.said.own_deviations import in_deviations
+from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
@@ -75,7 +77,10 @@ EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = (
     r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
     rf"|\bwhere|\bwith|\band|(?<=\s)\((?={NAME}[ \t]*=[ \t]*{NAME}[ \t]*[,)])"
+    rf"|(?<=[ \t])[(\[](?=[ \t]?{NAME}[ \t]*=(?![=>])(?![ \t]*[-−]?[\d.,/]{{1,9}}[ \t]?\w{{0,4}}[)\]])"
+    r"(?:[^()\[\]=,;:\n]|\([^()=\n]{1,40}\)){1,80}[)\]][.,;]?[ \t]*$)"
 )
+"""Where a name that gets a value may stand; also in brackets at the end of a line: (a = cos β)."""
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
@@ -381,8 +386,9 @@ def _words(lines: Lines, text: str) -> Words:
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
     own |= dict.fromkeys(x for x in names_in_chains(text) if not system.known(x) and not system.is_product(x))
-    own |= dict.fromkeys(constants_of_deviations(text))
+    own |= dict.fromkeys(constants_of_deviations(text)) | dict.fromkeys(component_names(text, system.is_name))
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
+    used |= introduced_letters(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]

@@ -15,10 +15,13 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
+from lagrangian.check.reading.components import component_of
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.placeholders import is_placeholder, is_vector
+from lagrangian.model import time
 from lagrangian.quantities.source import Source
+from lagrangian.read.letters import key
 
 DIGITS = 30
 """The digits to which two values of a name are compared, at random places."""
@@ -33,6 +36,7 @@ def contradicting(
     """A line for each two values of a name of which one is used and the other is not, with the number of its statement;
     its place is that of the last of the lines ``made`` of this.
 
+    So is one for the rate of a point's component that is not the derivative of the point, xS' beside S = (…, …).
     Values that cannot be judged, a number beside a formula or a force beside another, are told in a note.
     """
     for _, i, above, value in names.redefined.unused():
@@ -46,6 +50,14 @@ def contradicting(
             kind: Kind = "equation" if accelerates(a) or accelerates(b) else "identity"
             last = made.get(i)
             yield i, AnswerLine(kind, a, b, None, last[-1].place if last else sources[i].at(0), told)
+    for name, order, value, i in names.redefined.rates:
+        place = component_of(name, lambda of: names.own.get(key(of), ("", None))[1])
+        if place is None or key(name) in names.own or not isinstance(value, sp.Expr):
+            continue
+        rate = bounded.diff(place, *[time] * order)
+        if _differ(rate, value) and not any(map(names.is_unknown, bounded.letters(rate) | bounded.letters(value))):
+            last, told = made.get(i), " ".join(sources[i].text.split())
+            yield i, AnswerLine("identity", value, rate, None, last[-1].place if last else sources[i].at(0), told)
 
 
 def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:

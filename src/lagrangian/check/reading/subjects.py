@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Kind
+from lagrangian.check.reading.components import is_component
 from lagrangian.check.reading.defined_energies import energy_of_definition
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, spelled_rates
@@ -135,9 +136,8 @@ class Subjects:
         """How often a name is differentiated: by primes, dots, or in letters."""
         base, dots = undotted(token)
         order = len(primes or "") + dots
-        if not spelled_rates(base) or self.names.scope.meanings(token)[0]:
-            return order
-        return order + max((k for k, stem in self._rates(base) if self.names.changes(stem)), default=0)
+        spelled = () if self.names.scope.meanings(token)[0] else self._rates(base)
+        return order + max((k for k, stem in spelled if self.names.changes(stem)), default=0)
 
     def _new(self, subject: Subject) -> bool:
         """Whether a statement is the first to say what a name is."""
@@ -215,19 +215,19 @@ class Subjects:
         assert subject.token is not None
         if not subject.order and key(str(subject.token)) in self.accelerations:
             return not isinstance(value, sp.Derivative)  # a = y'' is no equation, a = F/m is one
+        used = self.names.occurs(subject.token) > 1
         if subject.order:
-            if self.names.occurs(subject.token) > 1 and not value.atoms(AppliedUndef):
-                return False  # a motion that is prescribed: y_p'' = -a w^2 cos(w t)
+            if is_component(subject.token, self.names.given_matrices) or (used and not value.atoms(AppliedUndef)):
+                return False  # the rate of a point's component, or a motion that is prescribed: y_p'' = -a w^2 cos(w t)
             if subject.order == 1 and key(str(subject.token)) in self.gives_rates - self.defined:
                 return True  # p' = F, where x' = p/m says what p is
-            if subject.order == 1 and self.names.occurs(subject.token) > 1 and key(subject.token) not in self.bare:
+            if subject.order == 1 and used and key(subject.token) not in self.bare:
                 return False  # xS' = x' + l phi' cos phi, of which only the rate is used
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
-            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
+            return new or not used or (subject.order > 1 and not accelerates(value))
         if subject.inverse or not accelerates(value):
             return False
-        others = equal - subject.right
-        return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
+        return subject.right or not used or equal < len(self.model.coordinates)
 
     def is_letter(self, subject: Subject) -> bool:
         """Whether a subject is an energy by a letter that is one only because a line says so: K, P, U."""

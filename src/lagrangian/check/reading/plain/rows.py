@@ -112,8 +112,11 @@ _NEXT = (
 _COLUMN = r"(?P<column>(?<=[\w)\]'’′²³\u0307\u0308])(?:[ ]{3,}|[ ]?\t[ \t]*)(?=[\w(∂\[]))"
 """A gap between two columns of a line."""
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
+_SHORT_WORDS = r"(?<!(?<!\w)[ieIE]\.[eg])(?<!(?<!\w)[dDzZ]\.[hBb])(?<!(?<!\w)cf)(?<!(?<!\w)ca)(?<!(?<!\w)vs)"
+"""What ends in a point and no sentence: i.e. Steiner's theorem."""
 _STOP = (
-    r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
+    rf"(?<=[\w)\]'’′″²³])[ \t]*+{_SHORT_WORDS}(?P<stop>\.)"
+    r"(?=[ \t]+(?:"
     r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|(?:OK|ok|Ok|QED)\b|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
     r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )

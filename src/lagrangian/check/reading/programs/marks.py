@@ -74,7 +74,9 @@ _SOLVES = re.compile(
 """What a program has that computes motions."""
 _SIGN = re.compile(r"[#%]|//(?=\s)")
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
-_FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
+_FIELD = re.compile(
+    rf"(?<![\w.)\]])(?!(?:i\.e|e\.g|d\.h|z\.B|u\.a|s\.o|s\.u)\.)(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])"
+)
 
 
 def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -43,6 +43,13 @@ _BEHIND = re.compile(
     re.MULTILINE,
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
+_MEANT_IN_BRACKETS = re.compile(
+    r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]{1,150}+\[[ \t]?(?P<names>[^\W\d]\w{0,12}+(?:,[ \t]?[^\W\d]\w{0,12}+){0,3})"
+    r"(?:[ \t]?:[ \t]?|[ \t](?:is|are|denotes?|ist|sind|est)[ \t])(?=[^\[\]]{0,60}[^\W\d_]{3})"
+    r"[^\[\]\n=+*/^()\d]{3,100}\](?=[ \t]*[.,;]?[ \t]*$)",
+    re.MULTILINE,
+)
+"""The same in square brackets, also near the equation: [th: heel]."""
 _TOLD_BEHIND = re.compile(
     r"(?<=[\w)\]'’′²³])[ \t]{4,150}+(?=[^\W\d_]{1,3}_)[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
     r"(?:(?!(?:alpha|beta|gamma|delta|theta|phi|psi|omega|sin|cos|tan|sqrt|exp|sign|sgn|ddot|dot)\b)[a-zäöüß]{2,24}"
@@ -89,7 +96,7 @@ def without_legend(written: TracedText) -> TracedText:
     direction counts, which multiplier belongs to a constraint, or that something is constant."""
     written = written.sub(_LEGEND, _blank).sub(_DIRECTION, _blank).sub(_COUNTS, _blank)
     written = written.sub(_ADDED, lambda m: " + const" if "=" in _line_of(m) else m.group())
-    for form in (_BEHIND, _TOLD_BEHIND):
+    for form in (_BEHIND, _MEANT_IN_BRACKETS, _TOLD_BEHIND):
         written = written.sub(form, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
     written = written.sub(_CONSTANT, _blank)
     return written.sub(_MULTIPLIER, lambda m: _blank(m) if "=" in _line_of(m) else m.group())

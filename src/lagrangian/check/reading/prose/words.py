@@ -59,8 +59,9 @@ _GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
 _INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
 """A letter with an index, which is a name and no word: N_r; e_r is a unit vector."""
 
-_LED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d]\w{1,23})['’′″]{1,2}[ \t]*+=(?![=>])", re.MULTILINE)
-_DOTTED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d][\w\u0307\u0308]{1,23})[ \t]*+=(?![=>])", re.MULTILINE)
+_LEADS = r"(?:^|[:;,]|\b(?:with|where|and|mit|wobei|und|avec|où)\b)"
+_LED = re.compile(rf"{_LEADS}[^\S\n]*+([^\W\d]\w{{1,23}})['’′″]{{1,2}}[ \t]*+=(?![=>])", re.MULTILINE)
+_DOTTED = re.compile(rf"{_LEADS}[^\S\n]*+([^\W\d][\w\u0307\u0308]{{1,23}})[ \t]*+=(?![=>])", re.MULTILINE)
 
 _FORCE = re.compile(r"(?:lam|lmbda|lambda|mu)(?:_?\d)?")
 """Spellings of a multiplier."""

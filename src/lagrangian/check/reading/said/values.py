@@ -73,6 +73,8 @@ _POINTING = frozenset(["direction", "along", "against", "towards", "parallel", "
 """Words in front of what only gives a direction: λ is positive in the direction of Ω s."""
 _DONE = frozenset(["times", "mal", "fois", "plus", "minus", "less"])
 """Words in front of what is done to an equation: F from the rear wheel, times n r."""
+_OF = frozenset(["of", "von", "de", "du"])
+"""Words in front of a name to which belongs what has the value: the lever arm of A is s; not the value of A is s."""
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
 _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
@@ -238,7 +240,7 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
         lower = {x.lower() for x in between}
         if {x.lower() for x in between[-3:]} & _POINTING or {x.lower() for x in between[-1:]} & _DONE:
             continue
-        if (kind, other) == ("name", "value"):
+        if (kind, other) == ("name", "value") and not _belongs(said):
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
             has = bool(lower & _HAVING) and between[-1].lower() not in _HAVING  # the force N with the arm s
             has &= not (lower & _IS) - _HAVING - {"the"} and not lower & _VALUE
@@ -256,6 +258,12 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
         elif (kind, other) == ("value", "name") and len(first) == len(second) and lower & _NAMED:
             sure = bool({x.lower() for x in said} & _NAMED) or "by" in lower or "called" in lower
             yield from ((a, b, sure) for a, b in zip(second, first, strict=True))
+
+
+def _belongs(said: Sequence[str]) -> bool:
+    """Whether the words in front of a name make it what something else belongs to: the lever arm of A."""
+    lower = [x.lower() for x in said]
+    return bool(lower) and lower[-1] in _OF and not _VALUE & set(lower[-4:])
 
 
 def _groups(items: Sequence[_Item]) -> list[tuple[str, list[str], tuple[str, ...]]]:
