@@ -37,6 +37,10 @@ SPECIAL = [
     "(g) Controls\nPendulum locked (phi = 0): (M + m) x'' + k x = F",
     "Is that plausible? For a steady push the cart rests where k x = F_0.",
     "Discussion. Static: with F = F0 and tau = 0 the rows read\nk x = F0 and m g l sin(phi) = 0.",
+    "Small motions, the drive left out: (M + m) x'' + m l phi'' + k x = 0",
+    "If M = m and k l = m g, the two swing alike.",
+    "Remark. For l = 1 it is a pendulum of unit length, m g l = m g, as it must be.",
+    "Where can it stand still? With the drives off: sin(phi) (m g l) = 0.",
 ]
 
 
@@ -44,6 +48,27 @@ SPECIAL = [
 def test_what_is_said_of_a_special_motion_is_no_mistake(said: str) -> None:
     verdict = cart().check(f"{EQUATIONS}\n{said}\n")
     assert verdict.right, verdict.to_text()
+
+
+LIMITS = r"""\[ (M+m)\ddot x + m l\ddot\phi\cos\phi - m l\dot\phi^2\sin\phi + k x = F \]
+\[ m l^2\ddot\phi + m l\ddot x\cos\phi + m g l\sin\phi = \tau \]
+\textbf{Limiting cases.}
+\begin{itemize}
+\item $m\to 0$: the cart alone, $M\ddot x + k x = F$.
+\item $k=g=0$, $F=0$: $\partial L/\partial\dot x$ stays constant.
+\end{itemize}
+"""
+
+
+def test_limits_in_a_list_of_latex_are_remarks() -> None:
+    verdict = cart().check(LIMITS)
+    assert verdict.right, verdict.to_text()
+    assert not cart().check(LIMITS.replace("+ m g l", "- m g l")).right
+    assert (
+        not cart()
+        .check(LIMITS.replace("\\textbf{Limiting cases.}", "").replace("$m\\to 0$: the cart alone, ", ""))
+        .right
+    )
 
 
 @pytest.mark.parametrize("said", SPECIAL)
@@ -59,6 +84,7 @@ def test_equations_above_a_discussion_are_judged(said: str, right: str, wrong: s
         "The pendulum obeys m l^2 phi'' + m g l sin(phi) = tau in every motion.",
         "k x = F",
         "k x = 2 F",
+        "For l = 1 we get the same, m g l = 2 m g.",
     ],
 )
 def test_a_wrong_line_below_is_judged(said: str) -> None:

@@ -81,15 +81,19 @@ _ABSENT = re.compile(
     re.IGNORECASE,
 )
 """Words of what a check leaves out: no friction, small angles."""
+_FORCES = (
+    r"(?:gravity|weight|friction|damp\w{0,6}|drag|force|input|torque|drive|motor|load|springs?|losses|"
+    r"dissipation|excitation|schwerkraft|gewicht|reibung|dämpf\w{0,6}|kraft|moment|antrieb|federn?|pesanteur|"
+    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b"
+)
 _LACKS = re.compile(
     r"\W{0,4}(?:(?:for|with|and|small|angles?|motions?|oscillations?|für|kleine|winkel|und|mit|pour|petits?|angles|et|"
     r"alpha|beta|gamma|delta|theta|phi|psi|[^\W\d_])[ ]){0,6}?"
     r"(?:no|without|neglecting|ignoring|ohne|kein(?:e[nr]?)?|sans)[ ]"
-    r"(?:[^\W\d_]{2,12}[ ]){0,2}?"
-    r"(?:gravity|weight|friction|damp\w{0,6}|drag|force|input|torque|drive|motor|load|springs?|losses|"
-    r"dissipation|excitation|schwerkraft|gewicht|reibung|dämpf\w{0,6}|kraft|moment|antrieb|federn?|pesanteur|"
-    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b[^=\n:,]{0,30}[:,]"
-    r"(?![^=\n]{0,200}\b(?:final|second|first|results?|equations?|solved|gives?|is|are|so|ergebnis|gleichung|ist)\b)",
+    rf"(?:[^\W\d_]{{2,12}}[ ]){{0,2}}?{_FORCES}[^=\n:,]{{0,30}}[:,]"
+    r"(?![^=\n]{0,200}\b(?:final|second|first|results?|equations?|solved|gives?|is|are|so|ergebnis|gleichung|ist)\b)"
+    rf"|[^=\n:;]{{0,60}}\b{_FORCES}[ ](?:(?:is|are)[ ])?"
+    r"(?:left[ ]out|neglected|ignored|weggelassen|vernachlässigt|négligée?s?)[ ]?:",
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
@@ -312,14 +316,15 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
     plain = _plain(part)
     for match in _RELATION.finditer(plain):
         names = [match["left"], *re.findall(_NAME, match["chain"])]
-        before = plain[max(0, match.start() - 80) : match.start()]
-        cues = list(_CUE.finditer(before))
-        cued = bool(cues) and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :]))
-        if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known, cued=cued):
+        if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
             continue
         if not match["right"].isdigit() and _goes_on(plain, match.end(), known):
             continue
-        if cued or ((led or match["left"] == "t") and _begins(before, known)):
+        before = plain[max(0, match.start() - 80) : match.start()]
+        if (led or match["left"] == "t") and _begins(before, known):
+            return True
+        cues = list(_CUE.finditer(before))
+        if cues and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :])):
             return True
     return False
 
@@ -341,12 +346,9 @@ def _begins(before: str, known: Callable[[str], bool]) -> bool:
     )
 
 
-def _is_special(match: re.Match[str], known: Callable[[str], bool], *, cued: bool) -> bool:
-    """Whether a relation is no value of a parameter and no name of a coordinate: x = 0, m1 = m2, φ' = W; and n = 1
-    where it is ``cued`` by a word: for n = 1."""
+def _is_special(match: re.Match[str], known: Callable[[str], bool]) -> bool:
+    """Whether a relation is no value of a parameter and no other name of a coordinate: x = 0, m1 = m2, φ' = W."""
     right = match["right"].rstrip("'’′")
-    if right == "1" and cued:
-        return True
     if match["sign"] not in ("=", "≡") or right in ("0", "∞", "pi", "π"):
         return True
     moves = match["left"][-1:] in "'’′"
