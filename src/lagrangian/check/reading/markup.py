@@ -70,7 +70,7 @@ _BEHIND_SENTENCE = re.compile(
 )
 """A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
 _ABOUT_NAME = re.compile(
-    r"(?<=[\w)²³])\.[ ](?=[*_]?[^\W\d_]\w{0,11}[ ]"
+    r"(?<=[\w)²³])(?<![ieIE]\.[eg])(?<![dDzZ]\.[hBb])\.[ ](?=[*_]?[^\W\d_]\w{0,11}[ ]"
     r"(?:depends|varies|changes|is|isn['’]t|hängt|ändert|ist|dépend|varie|n['’]est)[ ][^=+/^²·\n]{1,80}$)",
     re.MULTILINE,
 )

@@ -162,6 +162,21 @@ class Meaning(ExpressionReader):
         whole = self.names.relations.into(self.names.model.expand(energy), variable)
         return self._differentiated(whole, variable, node)
 
+    def _derivative(self, node: Node) -> sp.Expr:
+        """d/dξ(…), the derivative by a coordinate of an expression in names of the system.
+
+        Another name in it may hold the coordinate; what it means is put in later, so that it cannot be differentiated.
+        """
+        inner, by = node.children
+        variable = self.value(by)
+        model = self.names.model
+        whole = model.expand(self.scalar(inner))
+        known = {x.symbol for x in (*model.parameters, *model.inputs, *model.coordinates)}
+        own = bounded.letters(whole) - known - {time}
+        if own or not isinstance(variable, AppliedUndef) or self.names.is_unknown(variable):
+            self.fail("this is differentiated by a coordinate", node, fix="write the derivative out")
+        return self._differentiated(self.names.relations.into(whole, variable), variable, node)
+
     def _at_momenta(self, kind: str, energy: sp.Expr, variable: sp.Expr, by: Node) -> sp.Expr | None:
         """The derivative of an answer's own H, in which its momenta are held or differentiated by; None of another."""
         coordinates = [c.symbol for c in self.names.model.coordinates]

@@ -38,6 +38,8 @@ class LatexFractions(LatexSymbols):
         order = _differential_of_time(bottom)
         if order and _begins_with_d(top):
             return self._rate_fraction(token, top, order)
+        if top and bottom and self._differentiates(top, bottom):
+            return self._slope_of_bracket(token)
         if top and bottom and self._is_partial(top, bottom):
             return self._partial_fraction(token)
         over, under = self._part(), self._part()
@@ -152,6 +154,23 @@ class LatexFractions(LatexSymbols):
             made = self.product()
         self.opened.pop()
         return made
+
+    def _differentiates(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
+        """Whether a fraction is d/dθ or ∂/∂θ in front of a bracket."""
+        over, under = ("".join(x.text for x in part if x.kind not in "{}") for part in (top, bottom))
+        behind = self.i
+        for _ in range(2):
+            behind = self._behind(behind)
+        by = under[1:] if bottom[0].kind != "partial" else "".join(x.text for x in bottom[1:])
+        alone = top[0].kind == "partial" or over == "d"
+        opens = self.tokens[behind].kind in ("(", "[")
+        return len(top) == 1 and alone and opens and under[:1] in ("d", bottom[0].text[:1]) and self.names.changes(by)
+
+    def _slope_of_bracket(self, token: AnswerToken) -> Tree:
+        """Read d/dθ(…), the derivative of what stands in the bracket by a coordinate."""
+        self._skip_part()
+        by = self._after_d()
+        return node("derivative", token.start, self._closed(CLOSING[self.next.kind]), by)
 
     def _is_partial(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
         """Whether a fraction is ∂L/∂ẋ, dL/dẋ of an energy, or dI/dθ of a quantity of the answer's own by what moves."""

@@ -20,6 +20,9 @@ DIFFERENTIATE = frozenset(["diff", "Derivative", "D", "Diff"])
 DOTS = {"dot": 1, "ddot": 2, "der": 1}
 """Functions that stand for dots."""
 
+PARTIAL = "∂"
+"""The sign of partial derivatives; in front of a name it is part of a token of its own, ∂L/∂θ."""
+
 CLOSING = {"(": ")", "[": "]"}
 """Opening brackets, with their closing brackets."""
 
@@ -63,7 +66,7 @@ class PlainDerivatives(PlainConditions):
         return name(written, found.start(group), order)
 
     def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
-        """Read d(…)/dt or d²(…)/dt²; None if no bracket or no /dt follows."""
+        """Read d(…)/dt, d²(…)/dt² or d(…)/dθ; None if no bracket or nothing of this follows."""
         at = self.i
         twice = self._two()
         inner = self._bracket() if self.next.kind == "(" else None
@@ -72,8 +75,42 @@ class PlainDerivatives(PlainConditions):
             self.take()
             if not twice or self._two():
                 return node("rate", token.start, inner, 2 if twice else 1)
+        if inner is not None and not twice and self.accept("over") and (by := self._coordinate_behind_d()) is not None:
+            return node("derivative", token.start, inner, by)
         self.i = at
         return None
+
+    def _operator_by_coordinate(self, token: AnswerToken) -> Tree | None:
+        """Read d/dθ(…) or d/dθ […]; None if that does not follow."""
+        at = self.i
+        if self.accept("over") and (by := self._coordinate_behind_d()) is not None and self.next.kind in ("(", "["):
+            return node("derivative", token.start, self._bracket(), by)
+        self.i = at
+        return None
+
+    def _partial_of_bracket(self, token: AnswerToken) -> Tree:
+        """Read ∂(…)/∂θ or ∂/∂θ(…), behind the sign."""
+        made = self._d_of_bracket(token) if self.next.kind == "(" else self._operator_by_coordinate(token)
+        if made is None:
+            self.i -= 1
+            raise self.stopped(True)
+        return made
+
+    def _coordinate_behind_d(self) -> Tree | None:
+        """Read dθ or d(θ) below a bar, where θ is a coordinate."""
+        token = self.next
+        if token.text in ("d", PARTIAL) and self.ahead().kind == "(":
+            self.take()
+            by = self._bracket()
+            which = only_name(by)
+            return by if which is not None and not which[1] and self._moves(str(which[0])) else None
+        if token.text == PARTIAL and self.ahead().kind == "name" and self._moves(self.ahead().text):
+            self.take()
+            return name(self.next.text, self.take().start)
+        if token.kind != "name" or token.text[:1] != "d" or not self._moves(token.text[1:]) or self._moves(token.text):
+            return None
+        self.take()
+        return name(token.text[1:], token.start + 1)
 
     def _two(self) -> bool:
         """Whether ² or ^2 is next; if so, consume it."""

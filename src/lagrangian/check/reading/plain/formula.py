@@ -30,7 +30,7 @@ from lagrangian.check.reading.nodes import (
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.calls import PlainCalls
 from lagrangian.check.reading.plain.conditions import AND, NOT, OR
-from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS
+from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PARTIAL
 from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, is_varied, tokenize
 from lagrangian.check.reading.programs.residuals import CALLED
 from lagrangian.check.reading.prose.words import Words, function_of
@@ -62,6 +62,8 @@ class PlainParser(PlainCalls):
             return before.kind in ("]", ")", "name", "primes", "number", "fraction", "raised")
         if token.text == "|":
             return not self._bars
+        if token.text == PARTIAL:
+            return self.ahead().kind in ("(", "over")
         if token.kind not in _BEGINS or (token.kind in _NUMBERS and before.kind in _NUMBERS):
             return False
         names = [x for x in (before, token) if x.kind == "name"]
@@ -179,6 +181,8 @@ class PlainParser(PlainCalls):
                 return self._fraction_rate()
             case "other" if token.text == "|":
                 return self._absolute()
+            case "other" if token.text == PARTIAL and self.ahead().kind in ("(", "over"):
+                return self._partial_of_bracket(self.take())
             case "ddt" | "ddt2":
                 run = self.tokens[self.i : self.i + MAX_RATES + 1]
                 if len(run) > MAX_RATES and all(x.kind in ("ddt", "ddt2") for x in run):
@@ -266,6 +270,8 @@ class PlainParser(PlainCalls):
             and (rate := self._d_of_bracket(token)) is not None
         ):
             return rate
+        if token.text == "d" and self.next.kind == "over" and (made := self._operator_by_coordinate(token)) is not None:
+            return made
         if token.text[0] == VARIATION and is_varied(token.text, self.words):
             return wrapped("variation", token.start, name(token.text[1:], token.start))
         if self.words.is_function(token.text):
