@@ -189,7 +189,8 @@ class LatexFractions(LatexSymbols):
         of, by = over[1:].partition("(")[0], under[1:]
         if not over[:1] == under[:1] == "d" or not self.names.changes(by) or self.known(over) or self.known(under):
             return False
-        own = key(of) in self.names.scope.taken and not self.names.scope.meanings(of)[0]
+        factors = self.names.known("d") and key(of) not in self.names.scope.taken and not self.names.is_own(of)
+        own = bool(of) and not self.names.scope.meanings(of)[0] and not (factors and len(key(of)) > 1)
         return own or of in _ENERGIES
 
     def _partial_fraction(self, token: AnswerToken) -> Tree:
