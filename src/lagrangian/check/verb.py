@@ -23,6 +23,8 @@ from lagrangian.check.explain.bare_forms import without_bare_forms
 from lagrangian.check.explain.claims_checked import with_claims_checked
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.deflections_written import with_written_deflections
+from lagrangian.check.explain.denominators_said import with_denominators_named
+from lagrangian.check.explain.lengths_added import with_lengths_added
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
@@ -231,7 +233,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    checked = with_claims_checked(with_written_deflections(verdict))
+    checked = with_claims_checked(with_written_deflections(with_lengths_added(truth, verdict)))
+    checked = with_denominators_named(truth, checked)
     return without_bare_forms(truth, with_uncovered_terms(truth, checked))
 
 
