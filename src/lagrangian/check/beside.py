@@ -16,6 +16,7 @@ from lagrangian.check.difference import differences, likeness
 from lagrangian.check.explain.misconceptions.small_angle import first_order, small
 from lagrangian.check.places import (
     AT_REST,
+    ENDS_IN_ZERO,
     amplitudes,
     is_rate,
     only_places,
@@ -24,6 +25,7 @@ from lagrangian.check.places import (
     relates_freedoms,
     rests,
     rests_without_rates,
+    stands_still,
 )
 from lagrangian.check.reading.prose.places_said import AT
 from lagrangian.check.reference import Reference
@@ -42,7 +44,6 @@ UNITS = frozenset("mNJ")
 ROUNDED = 0.005
 """By which part of its largest term a sum in rounded numbers may miss zero."""
 BELOW = "its sentence is about a special motion"
-_ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 
 
 def beside(
@@ -64,6 +65,8 @@ def beside(
     moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
     placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
+    still = [x for x in wrong if complete and stands_still(truth, x.expr, x.text)]
+    aside |= dict.fromkeys(map(id, still), "it is about one motion")
     aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it holds under its condition" for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
@@ -156,7 +159,7 @@ def _of_motion(truth: Reference, lines: Sequence[AnsweredLine]) -> list[Answered
 
 def _place(truth: Reference, line: AnsweredLine, wrong: Sequence[AnsweredLine]) -> str | None:
     """Why a line about positions is not about every motion, with what else its line says: τ = 0, F = m g."""
-    if _SLOPE.match(line.text) and not _ZERO.search(line.text):
+    if _SLOPE.match(line.text) and not ENDS_IN_ZERO.search(line.text):
         return None
     given = [x.expr for x in wrong if x.number == line.number and x is not line]
     return place_or_approximation(truth, line.expr, line.text, given, said="rest" in line.beside)

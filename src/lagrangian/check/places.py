@@ -29,6 +29,8 @@ STEPS = 40
 FARTHEST = 50
 """Beyond this value no position is sought."""
 
+ENDS_IN_ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
+"""How a line ends whose last side is 0."""
 AT_REST = "it is about the position at rest"
 _TINY = 10.0 ** (10 - DIGITS)
 _CLOSE = 10.0 ** (5 - DIGITS)
@@ -85,6 +87,15 @@ def is_rate(truth: Reference, expr: sp.Expr) -> bool:
     (rate,) = rates
     rest = bounded.expand(expr - expr.diff(rate) * rate)
     return bool(expr.diff(rate).is_number) and (rest.is_number or (-rest).is_Symbol or rest.is_Symbol)
+
+
+def stands_still(truth: Reference, expr: sp.Expr, written: str) -> bool:
+    """Whether a line only says that rates and accelerations are all 0: θ″ = θ′ = 0."""
+    rates = {x for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
+    held = expr.atoms(sp.Derivative)
+    rest = expr.xreplace(dict.fromkeys(held, sp.S.Zero))
+    letters = expr.xreplace({x: sp.Dummy() for x in held}).atoms(AppliedUndef)
+    return bool(held) and held <= rates and rest == 0 and not letters and ENDS_IN_ZERO.search(written) is not None
 
 
 def relates_freedoms(truth: Reference, expr: sp.Expr) -> bool:

@@ -48,6 +48,9 @@ MOST_SIDES, MOST = 12, 200
 
 _NUMBER = re.compile(r"(?<![\w.,])(\d{1,30}+)(?:(?:[.,]|\{,\})(\d{1,30}+))?(?:[eE]([+-]?\d{1,2}+))?")
 
+_PREFIXED = re.compile(r"[ \t]?([kcm])(?:m|N|g|J|s|rad)(?![\w^*²³])")
+"""A unit with a prefix behind a number: 29 mm."""
+
 _Values = Mapping[sp.Symbol, float]
 
 
@@ -251,7 +254,12 @@ def _written(line: str) -> Iterator[_Written]:
         whole, fraction, power = found[1], found[2] or "", int(found[3] or 0)
         zeros = len(whole) - len(whole.rstrip("0")) if not fraction else 0
         size, unit = float(f"{whole}.{fraction or 0}e{power}"), 10.0 ** (power - len(fraction))
-        yield _Written(size, unit * 10**zeros if size >= FEWEST_BEFORE_ZEROS * unit * 10**zeros else unit)
+        unit *= 10**zeros if size >= FEWEST_BEFORE_ZEROS * unit * 10**zeros else 1
+        prefix = _PREFIXED.match(line, found.end())
+        scale = {"k": 1e3, "c": 1e-2, "m": 1e-3}[prefix[1]] if prefix is not None else 1.0
+        yield _Written(size, unit)
+        if scale != 1:
+            yield _Written(size * scale, unit * scale)
 
 
 def _same(a: float, b: float) -> bool:

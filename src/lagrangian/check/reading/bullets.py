@@ -15,6 +15,11 @@ from lagrangian.check.reading.prose.remarks import accelerates_in
 
 _BULLET = re.compile(r"[ \t]*(?P<mark>[-*+•–])[ \t]+(?=\S)")
 _STATED = re.compile(r"(?P<name>[^\W\d]\w{0,23}+)(?:\*|\^\*)?[ \t]*:?=(?![=>])")
+_SAID = re.compile(
+    r"[$\\]{0,3}[^\W\d_]\w{0,23}+['’′]{0,2}\$?[ \t](?:[^\W\d_]{1,24}[ \t]){0,2}?"
+    r"(?:is|are|denotes|means|stands|points|ist|sind|bezeichnet|zeigt|est|sont|désigne)[ \t][^=]{3,}$"
+)
+"""A sentence of a list that says what a letter is, which no minus begins: θ is the angle of the buckets."""
 _TERM = re.compile(
     r"[ \t]*[-–][ \t]+(?![$]|\\[(\[]|[^\W\d]\w*(?:\{\w{1,12}\})?['’′]{0,2}[ \t]*[:=]"
     r"|[^\W\d_]{2,}:?[ \t]+[^\W\d_]{2,}(?!\w)[ \t:])"
@@ -74,6 +79,8 @@ class Bullets:
         d/dt behind one, as a step does."""
         line = self._lines[k]
         if self._marks[k] == "•" or (self._marks[k] in "-–*" and _BY_TIME.match(line, self._ends[k])):
+            return True
+        if _SAID.match(line, self._ends[k]):
             return True
         stated = _STATED.match(line, self._ends[k])
         return stated is not None and names(stated["name"]) and self._marks[k] in "-–*" and not accelerates_in(line)

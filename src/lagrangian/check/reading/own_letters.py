@@ -1,4 +1,5 @@
-"""Recognizes letters of energies that an answer uses for something else: D = (M + m)*mu - m^2, then x'' = …/D."""
+"""Recognizes letters of energies and generalized forces that an answer uses for something else: D = (M + m)*mu - m^2,
+then x'' = …/D."""
 
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
-    found = set(_used_as_names(statements, first, subjects))
+    found = {*_used_as_names(statements, first, subjects), *_cut_forces(statements, first, subjects)}
     if any(map(_equates_to_power, statements)) and not names.scope.meanings(POWER)[0]:
         found.add(POWER)
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
@@ -164,6 +165,19 @@ def _used_as_names(
                 continue  # V' is the slope of an energy
             if used and (alone is None or alone[0] != written):
                 yield key(written)
+
+
+def _cut_forces(
+    statements: Sequence[Sequence[Tree]], first: Sequence[tuple[Token, int] | None], subjects: Subjects
+) -> Iterator[str]:
+    """The names of generalized forces that a balance is solved for, Q = n τ − n² J φ'', and another balance uses."""
+    moving = [any(map(subjects.accelerates, sides)) for sides in statements]
+    for k, named in enumerate(first):
+        if named is None or named[1] or not moving[k] or subjects.names.force(str(named[0])) is None:
+            continue
+        balances = [s for j, s in enumerate(statements) if j != k and moving[j] and first[j] != named]
+        if any(str(x) == str(named[0]) for s in balances for side in s for x, _ in names_in(side)):
+            yield key(str(named[0]))
 
 
 def _primes_of(written: str, side: Tree) -> Iterator[int]:

@@ -303,7 +303,7 @@ class Subjects:
         plain = key(str(token)) in self.plain
         if not moving and not plain and (kind := energy_of(token, self.model, lhs=True)) is not None:
             return Subject(cast("Kind", kind), None, token)
-        if (coordinate := self.names.force(token)) is not None:
+        if not plain and (coordinate := self.names.force(token)) is not None:
             return Subject("Xi", coordinate)
         momentum = momentum_of(token, self.model) if self.names.occurs(token) == 1 and not balanced else None
         if momentum is not None:

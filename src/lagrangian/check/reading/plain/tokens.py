@@ -252,6 +252,10 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, *, v
         tokens += [AnswerToken(kind, written, number.end, degrees.end()) for kind, written in more]
         return degrees.end()
     factor, end = _unit(text, at, words, units)
+    if factor is None and not units:
+        sure, behind = _unit(text, at, words, True)
+        if sure is not None and _is_amount(text, number, behind, words):
+            factor, end = sure, behind
     if factor is None and not units and not words.doubtful:
         words.doubtful = _unit(text, at, words, True)[0] is not None and _in_units(text, words, sure=True)
     made = _decimal(Fraction(number.text) * factor) if factor is not None else None
@@ -261,6 +265,19 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, *, v
     if not value or factor != 1:
         words.names.notes.setdefault(f"{text[number.start : end]} was read as {made}.")
     return end
+
+
+def _is_amount(text: str, number: AnswerToken, end: int, words: Words) -> bool:
+    """Whether a number with a unit is what a calculation amounts to at the end of its statement, m g/k = 29 mm, though
+    the unit may also be names of the system: constants alone are on its left, more than one, and m follows a decimal
+    number, as masses are not added up to half of one."""
+    before, unit = text[: number.start].rstrip(), text[number.end : end].strip()
+    if before[-1:] not in ("=", "≈") or text[end:].strip(" \t.;"):
+        return False
+    listed = _WORD.findall(before)
+    factors = [part for x in listed for part in (words.factors(x) or [x])]
+    constant = all(words.known(x) and not words.names.changes(x) for x in factors if function_of(x) is None)
+    return constant and len(factors) > 1 and ("." in number.text or len(unit) > 1)
 
 
 def _is_unit(behind: str, name: str, words: Words) -> bool:
