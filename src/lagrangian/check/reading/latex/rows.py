@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, without_braces, without_end_marks, without_units
+from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.plain.ends import incomplete
@@ -47,6 +47,7 @@ _SYSTEM = re.compile(
     re.DOTALL,
 )
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
+_STYLE = re.compile(r"\\(?:display|text|script)style(?![A-Za-z])")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
 _BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
 """What stands around a result; a line below one name is a part of the name."""
@@ -188,7 +189,7 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
 def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     """The statements of one piece of mathematics; ``lines``: the end of a line may end a statement."""
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
-    for form in (_WRAPPER, _NOTE, _UPRIGHT_NUMBER):
+    for form in (_WRAPPER, _NOTE, _STYLE, _UPRIGHT_NUMBER):
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = without_units(without_braces(_with_points(_without_words(without_end_marks(_unboxed(text))))))
     rows: list[AnswerRow] = []
@@ -229,6 +230,7 @@ def _without_words(text: str) -> str:
     while (match := _WORDS.search(text, at)) is not None:
         end = closing(text, match.end())
         words = text[match.end() : end - 1].strip()
+        end = max(end, remark_end(text, match.end(), end))
         symmetric = words.lower().rstrip(".") in _SYMMETRIC
         behind = is_direction(words) and _BEHIND.match(text, end) is not None
         behind = behind and text[: match.start()].rstrip(" ~\\,;:")[-1:] not in {*"=+-*/({", ""}
