@@ -7,7 +7,7 @@ form has a wrong twin.
 from __future__ import annotations
 
 import pytest
-from small_systems import cart, rod
+from small_systems import cart, mass, rod
 
 import lagrangian as lg
 
@@ -75,3 +75,57 @@ def test_a_bracket_of_words_may_end_in_mathematics(remark: str) -> None:
 \[ (M+m)\ddot x + B\cos\phi\,\ddot\phi - B\sin\phi\,\dot\phi^2 + k x = 0 \]
 \[ A\,\ddot\phi + B\cos\phi\,\ddot x + B\,g\sin\phi = 0 \]"""
     assert_read(cart(), written, (r"A = m\,l^2", r"A = 2 m\,l^2"), (r"B = m\,l ", r"B = m\,l^2 "), ("- B", "+ B"))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "w. = its derivative, r. and r.. the first and second one of r\n",
+        "letters: w. the derivative of w\n",
+        "(a dot behind a letter means d/dt)\n",
+        "w. = dw/dt, r. = dr/dt, v. = dv/dt\n",
+        "v. and w. their derivatives\n",
+    ],
+)
+def test_dots_behind_names_are_rates_where_the_answer_says_so(said: str) -> None:
+    written = f"""{said}w = phi', v = r'
+J w. + m r^2 w. + 2 m r v w = M          [1]
+m (v. - r w^2) = - k (r - a)             [2]"""
+    if said.startswith(("w. = its", "letters")):
+        written = written.replace("v.", "r''")
+    assert_read(rod(), written, ("2 m r v w", "2 m r v"), ("J w.", "J w"), ("- r w^2", "+ r w^2"))
+
+
+TWO = """(x. = first, x.. = second derivative of x)
+m x.. = F - k x - b x.                          <-- equation of motion"""
+
+
+def test_two_dots_behind_a_name_say_what_one_is_in_front_of_anything() -> None:
+    assert_read(mass(), TWO, ("b x.", "b x"), ("- b", "+ b"))
+    assert_read(mass(), "m x.. = F - k x - b x. This is the equation of motion.".replace("x. This", "x."))
+    squared = """p means phi.
+J p.. + m r^2 p.. + 2 m r r. p. = M
+r.. - r p.^2 = - k (r - a)/m"""
+    assert_read(rod(), squared, ("p.^2", "p^2"), ("r. p.", "r p."), ("p.^2", "p."))
+
+
+def test_a_dot_before_a_new_sentence_is_a_full_stop() -> None:
+    written = "m x.. + b x. = F - k x. The mass is not weightless.\nHere F is the force."
+    assert_read(mass(), written, ("- k x.", "- k x. - k x."), ("b x. =", "b x ="))
+    whole = "With x. = dx/dt we have\nm x.. = F - b x. - k x."
+    assert_read(mass(), whole, ("- b x.", "+ b x."))
+
+
+@pytest.mark.parametrize("value", ["(= dphi/dt)", "(= d phi/dt)", "(= phi')", "(= phi' + 0)"])
+def test_a_value_in_brackets_behind_what_a_letter_is(value: str) -> None:
+    written = f"""letters:  w1 rate of the rod {value},  v speed along it (= dr/dt), Js inertia about the pin (= J + m r²)
+Js w1' + 2 m r v w1 = M
+m (v' - r w1^2) = - k (r - a)"""
+    assert_read(rod(), written, ("(= J + m r²)", "(= J + 2 m r²)"), ("2 m r v w1", "2 m r v"), ("(= dr", "(= 2 dr"))
+
+
+def test_words_in_front_of_such_a_value_are_no_names() -> None:
+    # the energy of one body is not T, and "the" and "arm" are no letters
+    written = "T kinetic energy of the motor (= 0), the rod (= a), I take phi (= phi).\nJ phi'' + m r² phi'' + 2 m r r' phi' = M"
+    written += "\nm r'' - m r phi'^2 = - k (r - a)"
+    assert_read(rod(), written, ("2 m r r'", "m r r'"))
