@@ -118,7 +118,8 @@ def test_a_dot_before_a_new_sentence_is_a_full_stop() -> None:
 
 @pytest.mark.parametrize("value", ["(= dphi/dt)", "(= d phi/dt)", "(= phi')", "(= phi' + 0)"])
 def test_a_value_in_brackets_behind_what_a_letter_is(value: str) -> None:
-    written = f"""letters:  w1 rate of the rod {value},  v speed along it (= dr/dt), Js inertia about the pin (= J + m r²)
+    written = f"""letters:  w1 rate of the rod {value},  v speed along it (= dr/dt),
+Js inertia about the pin (= J + m r²)
 Js w1' + 2 m r v w1 = M
 m (v' - r w1^2) = - k (r - a)"""
     assert_read(rod(), written, ("(= J + m r²)", "(= J + 2 m r²)"), ("2 m r v w1", "2 m r v"), ("(= dr", "(= 2 dr"))
@@ -126,6 +127,60 @@ m (v' - r w1^2) = - k (r - a)"""
 
 def test_words_in_front_of_such_a_value_are_no_names() -> None:
     # the energy of one body is not T, and "the" and "arm" are no letters
-    written = "T kinetic energy of the motor (= 0), the rod (= a), I take phi (= phi).\nJ phi'' + m r² phi'' + 2 m r r' phi' = M"
-    written += "\nm r'' - m r phi'^2 = - k (r - a)"
+    written = """T kinetic energy of the motor (= 0), the rod (= a), I take phi (= phi).
+J phi'' + m r² phi'' + 2 m r r' phi' = M
+m r'' - m r phi'^2 = - k (r - a)"""
     assert_read(rod(), written, ("2 m r r'", "m r r'"))
+
+
+POWER = """Names: w = phi_dot, v = r_dot. The ending _dot means d/dt.
+virtual power:  0 = (M - (J w + m r^2 w)_dot) w* + (m r w^2 - k (r - a) - m v_dot) v*
+(m r^2 w)_dot = m r^2 w_dot + 2 m r v w
+Terms with w*:   J w_dot + (m r^2 w)_dot = M
+Terms with v*:   (m v)_dot - m r w^2 + k (r - a) = 0"""
+
+
+def test_the_rate_of_what_stands_in_brackets_and_virtual_velocities() -> None:
+    assert_read(
+        rod(),
+        POWER,
+        ("= M\n", "= 2 M\n"),
+        ("J w_dot + (m r^2 w)_dot", "J w_dot + (m r w)_dot"),
+        ("2 m r v w", "m r v w"),
+        ("(m v)_dot", "(m v)"),
+        ("(m v)_dot", "2 (m v)_dot"),
+    )
+
+
+def test_stars_without_virtual_velocities_are_products() -> None:
+    written = "w = phi', v = r'\nJ*w' + m*r^2*w' + 2*m*r*v* w = M\nm*v' - m*r*w^2 + k*(r - a) = 0"
+    assert_read(rod(), written, ("2*m*r*v* w", "2*m*r*v"))
+
+
+INDEXED = """w = phi_t   (index t = time derivative),   u = r_t
+
+D = J w + m r^2 w          (counter-clockwise)
+
+D_t = sum of moments:
+   (J + m r^2) w_t + 2 m r u w = M      (A)
+
+the mass along the rod
+   m (u_t - r w^2) = - k (r - a)        (B)"""
+
+
+@pytest.mark.parametrize("said", ["index t = time derivative", "subscript t means d/dt", "index t: derivative"])
+def test_an_index_is_a_rate_of_every_letter_where_an_answer_explains_it(said: str) -> None:
+    written = INDEXED.replace("index t = time derivative", said)
+    assert_read(rod(), written, ("2 m r u w", "m r u w"), ("u_t - r w^2", "u_t + r w^2"))
+
+
+def test_a_momentum_called_d_may_be_written_with_letters_for_rates() -> None:
+    written = "w = phi', u = r'\nD = (J + m r²) w\nD' = M\nm u' - m r w² = - k (r - a)"
+    assert_read(rod(), written, ("D' = M", "D' = 2 M"), ("(J + m r²) w", "(J + m r) w"))
+    damped = "v = x'\nT = 1/2 m v^2, V = 1/2 k x^2, D = 1/2 b v^2\nm v' + b v + k x = F"
+    assert_read(mass(), damped, ("D = 1/2 b", "D = b"), ("b v +", "b x +"))
+
+
+def test_a_sum_of_something_is_no_product_of_letters() -> None:
+    written = "s = r, u = s', m u' - m s phi'^2 = sum of forces = - k (s - a)\nJ phi'' + m s² phi'' + 2 m s u phi' = M"
+    assert_read(rod(), written, ("- k (s", "+ k (s"))
