@@ -10,6 +10,7 @@ import pytest
 from small_systems import cart, mass, rod
 
 import lagrangian as lg
+from lagrangian.check.reading import parse_answer
 
 
 def assert_read(system: lg.Derivation, written: str, *wrong: tuple[str, str]) -> None:
@@ -184,3 +185,29 @@ def test_a_momentum_called_d_may_be_written_with_letters_for_rates() -> None:
 def test_a_sum_of_something_is_no_product_of_letters() -> None:
     written = "s = r, u = s', m u' - m s phi'^2 = sum of forces = - k (s - a)\nJ phi'' + m s² phi'' + 2 m s u phi' = M"
     assert_read(rod(), written, ("- k (s", "+ k (s"))
+
+
+@pytest.mark.parametrize("bound", [">0", r"\neq 0", r"\,>\,0", r"\ge 0", r"\not= 0"])
+def test_a_definition_in_latex_may_say_that_it_is_not_zero(bound: str) -> None:
+    written = rf"""Cramer with $\Delta = (M + m\sin^2\phi)\,l {bound}$ yields
+\begin{{align*}}
+ \ddot x &= \frac{{m l^2\dot\phi^2\sin\phi + m g l\sin\phi\cos\phi - k l x}}{{\Delta}},\\
+ \ddot\phi &= \frac{{k x\cos\phi - m l\dot\phi^2\sin\phi\cos\phi - (M + m) g\sin\phi}}{{\Delta}}.
+\end{{align*}}"""
+    assert_read(cart(), written, (r"(M + m\sin", r"(M - m\sin"), ("- k l x", "+ k l x"), ("- (M + m)", "+ (M + m)"))
+
+
+@pytest.mark.parametrize("gap", ["&&", r"&\quad", r"\qquad"])
+def test_a_word_behind_a_gap_at_the_end_of_a_row_is_no_factor(gap: str) -> None:
+    written = rf"""\begin{{align*}}
+ T &= \tfrac12 M\dot x^2 + \tfrac12 m(\dot x^2 + 2 l\dot x\dot\phi\cos\phi + l^2\dot\phi^2) {gap} \text{{kinetic}}\\
+ V &= \tfrac12 k x^2 - m g l\cos\phi {gap} \text{{potential}},\\
+ (M+m)\ddot x &+ m l\cos\phi\,\ddot\phi - m l\sin\phi\,\dot\phi^2 + k x = 0 {gap} \text{{horizontal}}\\
+ m l^2\ddot\phi &+ m l\cos\phi\,\ddot x + m g l\sin\phi = 0 {gap} \mbox{{moments}}
+\end{{align*}}"""
+    assert_read(cart(), written, ("2 l", "3 l"), ("- m g l", "+ m g l"), ("+ k x", "- k x"), ("+ m g l", "- m g l"))
+
+
+def test_a_word_in_a_matrix_stays_an_entry() -> None:
+    row = r"\[ \begin{bmatrix} m\ddot x & 0\end{bmatrix} = \begin{bmatrix} F - k x & \text{pull}\end{bmatrix} \]"
+    assert [u.name for u in parse_answer(row, mass().model).unknown] == ["pull"]

@@ -85,6 +85,12 @@ _TAG_BEFORE = re.compile(
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
+_FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
+_ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")
+_BOUND = re.compile(
+    r"(?:[<>≤≥≠]|\\(?:[gl]eq?|[gl]t|neq?)(?![A-Za-z])|\\not\s?=)(?:\s|\\[,;:! ])*+0(?=(?:\s|~|\\[,;:! ]|[.,;])*+\Z)"
+)
+"""What a definition is not: D = J + m r^2 > 0."""
 _ARROWS = (
     r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
     r"|leadsto|Leftarrow|because|land)(?![A-Za-z])|[⇒⟹⇔⟺→⟶∴]|<?=>"
@@ -234,11 +240,19 @@ def _without_words(text: str) -> str:
         symmetric = words.lower().rstrip(".") in _SYMMETRIC
         behind = is_direction(words) and _BEHIND.match(text, end) is not None
         behind = behind and text[: match.start()].rstrip(" ~\\,;:")[-1:] not in {*"=+-*/({", ""}
+        behind = behind or (len(words) > 3 and words.isalpha() and _is_column_of_words(text, match.start(), end))
         if symmetric or behind or not _SHORT.match(words) or words.lower() in _LINKS:
             text = blank(text, match.start(), end)
             text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
         at = end
     return text
+
+
+def _is_column_of_words(text: str, start: int, end: int) -> bool:
+    r"""Whether a word stands alone behind a wide gap at the end of a row, and in no matrix: T = … && \text{kinetic}."""
+    if text.count("\\begin{", 0, start) > text.count("\\end{", 0, start):
+        return False
+    return _FAR.search(text, max(0, start - 40), start) is not None and _ROW_END.match(text, end) is not None
 
 
 def _unboxed(text: str) -> str:
@@ -276,6 +290,8 @@ def _labels(piece: str) -> str:
     for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _WORDS_BEFORE, _TAG_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
+    if (bound := _BOUND.search(piece)) is not None and "=" in piece[: bound.start()]:
+        piece = blank(piece, *bound.span())
     end = _content_end(piece)
     if (number := _NUMBER.search(piece[max(0, end - 12) : end])) is not None:
         start = end - len(number.group())
