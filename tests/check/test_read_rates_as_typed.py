@@ -211,3 +211,10 @@ def test_a_word_behind_a_gap_at_the_end_of_a_row_is_no_factor(gap: str) -> None:
 def test_a_word_in_a_matrix_stays_an_entry() -> None:
     row = r"\[ \begin{bmatrix} m\ddot x & 0\end{bmatrix} = \begin{bmatrix} F - k x & \text{pull}\end{bmatrix} \]"
     assert [u.name for u in parse_answer(row, mass().model).unknown] == ["pull"]
+
+
+def test_an_index_that_is_explained_in_latex_is_a_rate_of_letters_that_stand_alone_too() -> None:
+    written = r"""The index $t$ is the time derivative (index t = d/dt): $w = \phi_t$, $u = r_t$, $J_t = J + m r^2$.
+\[ J_t\,w_t + 2 m r u w = M \]
+\[ m\,(u_t - r w^2) = -k\,(r - a) \]"""
+    assert_read(rod(), written, ("2 m r u w", "m r u w"), ("u_t - r w^2", "u_t + r w^2"), ("J + m r^2", "J + m r"))

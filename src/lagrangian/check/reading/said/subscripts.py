@@ -34,7 +34,7 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
 
     ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system. Names of the answer's
     own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a
-    value: M_t = m_1 + m_2 is a mass.
+    value: M_t = m_1 + m_2 is a mass; and where words explain the index, if the names stand without it, too.
     """
     text = written.text
     latex = "\\" in text or "$" in text
@@ -47,7 +47,7 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
     names = {m["of"]: m for m in sorted(found, key=lambda m: m["by"] == "tt") if not taken(_name(m["of"]))}
     own = {of for of, m in names.items() if not _is_stated(text, of)}
     own = {of for of in own if names[of]["by"] == "tt" or _is_valued(text, of, form, moves)}
-    own |= set(names) if explained else set()
+    own |= {x for x in names if explained and re.search(rf"(?<![\w\\]){re.escape(x)}(?![\w{{]|_)", text)}
     kept = [m for m in found if moves(_name(m["of"])) or m["of"] in own]
     return written.edited((*m.span(), _written(m, latex=latex)) for m in kept)
 
