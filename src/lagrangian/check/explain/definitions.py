@@ -12,6 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
+from lagrangian.check.explain.energies_of_several import energy_of_several
 from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import PLACED, SaidWrongly, right_quantities
 from lagrangian.check.explain.which_said import as_said, letters_meant
@@ -88,6 +89,9 @@ def with_right_definitions(
             as_said(truth, x, of_line[id(x)], letters) for x in same
         ]
         if not all(every):
+            several = {energy_of_several(truth, x) for x in same}
+            if len(several) == 1 and (of := several.pop()) is not None:
+                found = inserted(found, Finding(same[0], Status.RIGHT, text(f"the {of}")))
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}
         note = text("the ", *next(iter(words.values()))) if len(words) == 1 else None

@@ -51,6 +51,7 @@ _VARIANT = re.compile(r"(?<=\\)var(?=(?:phi|theta|epsilon|rho|sigma|pi)(?![A-Za-
 """What begins the command of another form of a Greek letter."""
 _LETTERS_IN = re.compile(r"\\?[^\W\d_⁰¹²³⁴-⁹][^\W⁰¹²³⁴-⁹]*+")
 _FUNCTION = re.compile(r"(?:sin|cos|tan)(?=[^\W\d_])")
+_POWER = re.compile(r"\s{0,3}(?:[²³]|\^|\*\*)")
 _ENERGIES = frozenset(["T", "V", "U", "K", "L", "E"])
 _OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
 
@@ -76,9 +77,13 @@ def _with_plain_indices(text: str) -> str:
 
 
 def value_stated(name: str, text: str) -> str | None:
-    """What stands behind the first = of a name in an answer, up to the end of its line; None if there is none."""
+    """What stands behind the first = of a name in an answer, up to the end of its line or sentence; None if there is
+    none."""
     stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
-    return None if stated is None else stated["value"]
+    return None if stated is None else _SENTENCE_END.split(stated["value"], maxsplit=1)[0]
+
+
+_SENTENCE_END = re.compile(r"\.\s")
 
 
 def is_in_chain(name: str, text: str) -> bool:
@@ -123,6 +128,10 @@ def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bo
         name, listed = match["name"], [written(_OF_RATE.sub("", _VARIANT.sub("", x))) for x in match["of"].split(",")]
         if taken(written(name)) or changes(written(name)) or not all(map(changes, listed)):
             continue
+        if _FUNCTION.match(name) and changes(_FUNCTION.sub("", written(name))):
+            continue  # sinθ cosθ (θ̇)²
+        if _OF_RATE.search(match["of"]) and _POWER.match(text, match.end()):
+            continue  # m r (θ')² is a product
         stated = value_stated(name, text)
         if stated is None and not is_in_chain(name, text):
             continue

@@ -13,6 +13,7 @@ from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.prose.marks import readings, told_without
 from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.said.dots_behind import DottedText
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.records import dataclass
@@ -33,8 +34,9 @@ class Choices:
     accelerations as the rates of coordinates, a letter d in front of what moves as a factor (``factored``) where a
     constant has this name, whether remarks beside the equations are left out (``bare``), whether
     ``comments`` with equations of motion are read, whether coordinates that are given in others are ``put`` into
-    energies before these are differentiated, whether names with values of time alone are inputs (``driven``), and
-    which rows, at the places in ``marks``, are without what may be no part of them, in the reading of this number."""
+    energies before these are differentiated, whether names with values of time alone are inputs (``driven``), whether
+    dots of rates at the ends of lines are full stops (``stops``), and which rows, at the places in ``marks``, are
+    without what may be no part of them, in the reading of this number."""
 
     flipped: bool = False
     listed: bool | None = None
@@ -46,6 +48,7 @@ class Choices:
     comments: bool = False
     put: bool | None = None
     driven: bool = False
+    stops: bool | None = None
     marks: tuple[tuple[int, int], ...] = ()
     values: ValueMarks | None = None
     """With which marks the values of names are read."""
@@ -86,6 +89,8 @@ class Choices:
             yield f"The d in front of names of what moves was read as {of}."
         if self.put:
             yield "What the answer says of coordinates was put into its energies before they were differentiated."
+        if self.stops is not None:
+            yield f"The dot at the end of a line was read as {'a full stop' if self.stops else 'that of a rate'}."
         if self.listed is not None:
             of = "that of a list" if self.listed else "a minus"
             yield f"The sign at the beginning of a line was read as {of}."
@@ -95,8 +100,12 @@ LIKELIEST = Choices()
 """The reading that is tried first."""
 
 
-def less_likely(words: Words, *, rated: bool, listed: bool | None, remarks: bool) -> Iterator[Choices]:
-    """The other ways in which an answer may be read, as its ``words`` leave them open."""
+def less_likely(
+    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: bool
+) -> Iterator[Choices]:
+    """The other ways in which an answer may be read, as its ``words`` and its ``dots`` behind names leave them open."""
+    if dots.open:
+        yield Choices(stops=not dots.stops)
     if words.doubtful:
         yield Choices(units=True)
     if words.summed_asked:

@@ -82,6 +82,7 @@ from lagrangian.check.reading.said.stands_for import (
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
+from lagrangian.check.reading.said.virtual_velocities import with_virtual_velocities
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.starred import with_starred_names
@@ -109,6 +110,8 @@ _ROW_OF = re.compile(
 r"""What a row of LaTeX is about, in front of words: s'' &: \text{from the second equation} \ddot s = …"""
 _BY_TIME = re.compile(r"[(\[](?P<by>d/dt)[)\]](?=[ \t]?[(\[d∂])")
 """d/dt in brackets of its own: (d/dt)(∂T/∂x')."""
+_DOT_OF_BRACKET = re.compile(r"(?<=\))_(?P<two>d)?dot(?!\w)")
+"""The rate of what stands in brackets: (l c w)_dot."""
 _ROUND_BY_TIME = re.compile(
     r"∂[ ]?(?P<two>²|\^2)?[ ]?(?P<of>(?![TVLDℒE]\b)[^\W\d]\w{0,23}+(?:\(t\))?)[ ]?/[ ]?∂[ ]?t(?P<twice>²|\^2)?(?!\w)"
 )
@@ -144,6 +147,7 @@ def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedT
     def has(name: str) -> bool:
         return key(name) in own
 
+    text = with_virtual_velocities(text, names.changes).sub(_DOT_OF_BRACKET, lambda m: "''" if m["two"] else "'")
     paired = with_paired_rates(with_raised_dots(text, names.changes), names.changes, has)
     pointed = with_p_as_points(with_derivative_legends(paired, names.changes, has), names.changes, has)
     return without_glosses_of_rates(pointed, names.changes)

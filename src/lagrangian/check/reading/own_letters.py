@@ -47,8 +47,10 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         fixed = bool(listed) and all(constants.issuperset(names.scope.meanings(x)[0] or [x]) for x in listed)
         if own and (moving[k] or fixed or any(key(x) in rates for x in listed)):
             found.add(POWER)
-        if moving[k]:
-            found |= {key(str(named[0]))} if kind == "D" and _is_no_dissipation(sides, listed, subjects) else set()
+        rated = kind == "D" and (moving[k] or any(key(x) in rates for x in listed))
+        if rated and _is_no_dissipation(sides, listed, subjects, rates):
+            found.add(key(str(named[0])))
+        if moving[k] or key(str(named[0])) in found:
             continue
         listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
         others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
@@ -78,9 +80,12 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     return frozenset(found)
 
 
-def _is_no_dissipation(sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects) -> bool:
-    """Whether a value is the force of a damper, or holds masses and no square of a rate, as an angular momentum."""
-    momentum = _is_heavy(listed, subjects) and not any(map(_squares_rates, sides[1:]))
+def _is_no_dissipation(
+    sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects, rates: Collection[str]
+) -> bool:
+    """Whether a value is the force of a damper, or holds masses and no square of a rate, as an angular momentum; the
+    answer may have letters of its own for ``rates``."""
+    momentum = _is_heavy(listed, subjects) and not any(_squares_rates(side, rates) for side in sides[1:])
     return _is_force_of_damper(sides) or momentum
 
 
@@ -199,8 +204,9 @@ def _squares(side: Tree) -> bool:
     return any(x.data == "power" and len(x.children) > 1 for x in side.iter_subtrees())
 
 
-def _squares_rates(side: Tree) -> bool:
-    """Whether a power of a rate stands in a tree."""
+def _squares_rates(side: Tree, rates: Collection[str] = ()) -> bool:
+    """Whether a power of a rate stands in a tree, or of a letter of ``rates``."""
     powers = (x for x in side.iter_subtrees() if x.data in ("power", "postfix") and len(x.children) > 1)
     bases = (x.children[0] for x in powers)
-    return any(changing for base in bases if isinstance(base, Tree) for _, changing in names_in(base))
+    named = (x for base in bases if isinstance(base, Tree) for x in names_in(base))
+    return any(changing or key(str(name)) in rates for name, changing in named)

@@ -28,6 +28,7 @@ from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.marked_names import begun
 from lagrangian.check.reading.marked_values import with_marks
 from lagrangian.check.reading.markup import without_markup
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
@@ -49,6 +50,7 @@ from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKIN
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import read_in_own_letters
 from lagrangian.check.reading.said.deviations import constants_of_deviations
+from lagrangian.check.reading.said.dots_behind import with_dots_behind
 from lagrangian.check.reading.said.listed_values import is_value_of_product, without_values
 from lagrangian.check.reading.said.mentioned import chosen_names, described_names, mentioned_names
 from lagrangian.check.reading.said.own_deviations import in_deviations
@@ -217,7 +219,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     """The answer in one reading, without comments unless they are to be read."""
     given, lines = text, Lines(model, reading.names(model))
     remarks = without_side_remarks(text, model, lines.names.known)
-    typed = Source(plainer(remarks.text if reading.bare else text), "the answer", place)
+    dots = with_dots_behind(plainer(remarks.text if reading.bare else text), lines.names, stops=reading.stops)
+    typed = Source(dots.text, "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated = called.text != plain.text
@@ -230,10 +233,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     listing = text == signed if bullets.doubtful else None
     source = plain.source(typed, text)
     _check_length(source)
-    own = {key(name) for name in model.symbols}
     written = written_out(source) if latex else None
-    stated = dependents(written.text if written else text, lambda name: key(name) in own, lines.names.changes)
-    lines.names.dependents = stated | called_definitions(text, lines.names)
+    _set_dependents(lines.names, text, written)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
     source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
@@ -243,7 +244,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     if reading == LIKELIEST:
-        others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
+        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)
@@ -273,6 +274,13 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         renamed=tuple(lines.names.renamed.values()),
         mentioned=mentioned_names(given, lines.names.asked),
     )
+
+
+def _set_dependents(names: Names, text: str, written: ExpandedLatex | None) -> None:
+    """Set which quantities stand with what they depend on in brackets."""
+    own = {key(name) for name in names.model.symbols}
+    stated = dependents(written.text if written else text, lambda name: key(name) in own, names.changes)
+    names.dependents = stated | called_definitions(text, names)
 
 
 def _left_out(

@@ -98,6 +98,30 @@ def _uncovered(text: str, match: re.Match[str]) -> str:
     return "".join(letters)
 
 
+_SPOKEN = re.compile(r"\s*\([^()]*?(?<![^\W\d_])[^\W\d_]{3,}")
+_ROW_OR_SIDE = re.compile(r"(?<!\\)&|\\\\|=|\$|\n[ \t]*\n|[()]")
+
+
+def remark_end(text: str, start: int, end: int) -> int:
+    r"""Where a bracket of words ends that begins in text, between ``start`` and ``end``, and goes on in mathematics:
+    \text{(arm at }90^\circ); 0 if none does before the row ends, or if an equals sign stands in it."""
+    if _SPOKEN.match(text, start, end - 1) is None or ")" in text[start:end]:
+        return 0
+    depth = 0
+    for match in _ROW_OR_SIDE.finditer(text, start, end + _LONGEST_REMARK):
+        if match.group() not in "()":
+            return 0
+        depth += 1 if match.group() == "(" else -1
+        if depth == 0:
+            inside = text[end : match.start()]
+            return closing(text, match.end()) if inside.count("{") > inside.count("}") else match.end()
+    return 0
+
+
+_LONGEST_REMARK = 120
+"""The most characters of mathematics and words in which such a bracket goes on."""
+
+
 def without_units(text: str) -> str:
     r"""Return the text without SI units in upright letters after a number: 3\\,\\mathrm{kg\\,m^2} is 3."""
 

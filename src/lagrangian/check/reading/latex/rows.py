@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, without_braces, without_end_marks, without_units
+from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.plain.ends import incomplete
@@ -47,6 +47,7 @@ _SYSTEM = re.compile(
     re.DOTALL,
 )
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
+_STYLE = re.compile(r"\\(?:display|text|script)style(?![A-Za-z])")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
 _BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
 """What stands around a result; a line below one name is a part of the name."""
@@ -92,6 +93,12 @@ _TAG_BEFORE = re.compile(
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{_OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
+_FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
+_ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")
+_BOUND = re.compile(
+    r"(?:[<>≤≥≠]|\\(?:[gl]eq?|[gl]t|neq?)(?![A-Za-z])|\\not\s?=)(?:\s|\\[,;:! ])*+0(?=(?:\s|~|\\[,;:! ]|[.,;])*+\Z)"
+)
+"""What a definition is not: D = J + m r^2 > 0."""
 _ARROWS = (
     r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
     r"|leadsto|Leftarrow|because|land)(?![A-Za-z])|[⇒⟹⇔⟺→⟶∴]|<?=>"
@@ -212,7 +219,7 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
 def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     """The statements of one piece of mathematics; ``lines``: the end of a line may end a statement."""
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
-    for form in (_WRAPPER, _NOTE, _UPRIGHT_NUMBER):
+    for form in (_WRAPPER, _NOTE, _STYLE, _UPRIGHT_NUMBER):
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = without_units(without_braces(_with_points(_without_words(without_end_marks(_unboxed(text))))))
     rows: list[AnswerRow] = []
@@ -253,14 +260,23 @@ def _without_words(text: str) -> str:
     while (match := _WORDS.search(text, at)) is not None:
         end = closing(text, match.end())
         words = text[match.end() : end - 1].strip()
+        end = max(end, remark_end(text, match.end(), end))
         symmetric = words.lower().rstrip(".") in _SYMMETRIC
         behind = is_direction(words) and _BEHIND.match(text, end) is not None
         behind = behind and text[: match.start()].rstrip(" ~\\,;:")[-1:] not in {*"=+-*/({", ""}
+        behind = behind or (len(words) > 3 and words.isalpha() and _is_column_of_words(text, match.start(), end))
         if symmetric or behind or not _SHORT.match(words) or words.lower() in _LINKS:
             text = blank(text, match.start(), end)
             text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
         at = end
     return _BRACKETED.sub(lambda m: re.sub(r"[()\[\]]", " ", m.group()), text)
+
+
+def _is_column_of_words(text: str, start: int, end: int) -> bool:
+    r"""Whether a word stands alone behind a wide gap at the end of a row, and in no matrix: T = … && \text{kinetic}."""
+    if text.count("\\begin{", 0, start) > text.count("\\end{", 0, start):
+        return False
+    return _FAR.search(text, max(0, start - 40), start) is not None and _ROW_END.match(text, end) is not None
 
 
 def _unboxed(text: str) -> str:
@@ -298,6 +314,8 @@ def _labels(piece: str) -> str:
     for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _WORDS_BEFORE, _TAG_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
+    if (bound := _BOUND.search(piece)) is not None and "=" in piece[: bound.start()]:
+        piece = blank(piece, *bound.span())
     end = _content_end(piece)
     if (number := _NUMBER.search(piece[max(0, end - 12) : end])) is not None:
         start = end - len(number.group())

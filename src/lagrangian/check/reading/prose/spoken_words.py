@@ -28,6 +28,11 @@ _COMPOUND = re.compile(
     r"(?<![\w\\*/^+=(-])(?P<first>[^\W\d_][a-zäöü]{2,23})[ ](?P<second>[a-zäöü]{3,24})(?![\w'’′(*/^])", re.MULTILINE
 )
 """Two words beside each other: needle bar."""
+_SUM_OF = re.compile(
+    r"(?<![\\\w])(?P<word>sum|total|rate|somme|summe)(?=[ \t]+(?:of|de[rs]?|aller|all)[ \t]+[^\W\d_]{3,24})",
+    re.IGNORECASE,
+)
+"""What words add up, even behind an equals sign: dD/dt = sum of moments."""
 _SHORT = 3
 """The letters of a word that is no noun if it stands in mathematics anywhere."""
 _FUNCTION = r"(?:sin|cos|tan|sqrt|exp)"
@@ -56,6 +61,7 @@ def spoken_words(text: str, words: Words) -> frozenset[str]:
     short = {m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words)}
     nouns = {m["word"] for m in islice(_NOUN.finditer(text), _MOST)} | set(_compounds(text, words))
     nouns = {x for x in nouns if _VOWEL.search(x) and not words.known(x) and not words.is_used(x)}
+    short |= {m["word"] for m in islice(_SUM_OF.finditer(text), _MOST) if not words.known(m["word"])}
     return frozenset(short | {x for x in nouns if not function_of(x) and not _is_factor(x, text)})
 
 

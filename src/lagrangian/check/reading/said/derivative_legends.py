@@ -2,6 +2,7 @@
 
 D1 = first time derivative, D2 = second      D1y, D2 y and D2(y) are y', y'' and y''
 p behind a name = d/dt, pp = d^2/dt^2        phip and phipp are phi' and phi''
+index t = time derivative                    phi_t is phi'
 x. = first derivative, x.. = second          says nothing else and is left out
 y1, y2: first and second derivative of y     y1 = y'; y2 = y'';
 """
@@ -26,7 +27,7 @@ _WORDS = (
 _ALONE = r"(?:first|1st|second|2nd|erste|zweite)(?=[ \t]*(?:[,;.)]|$))"
 _WHERE = r"(?:behind|after|before|in[ ]front[ ]of|under|over|on|hinter|nach|vor|an)[ ](?:(?:an?|the|any|einem|dem)[ ])?"
 _LEGEND = re.compile(
-    r"(?<![\w.*/^+'’′-])(?P<quote>['\"`]?)(?:(?:a|an|suffix|prefix|index)[ ])?"
+    r"(?<![\w.*/^+'’′-])(?P<quote>['\"`]?)(?:(?:a|an|suffix|prefix|index|subscript)[ ])?"
     r"(?:(?P<mark>[^\W\d]{1,4}\d?)|(?P<shown>[^\W\d]\w{0,11}(?:['’′]{1,2}|\.{1,2})|['’′]{1,2}))(?P=quote)"
     rf"(?:[ ]{_WHERE}(?:name|letter|coordinate|variable|symbol|quantity|buchstaben|namen)s?)?"
     r"[ \t]*(?:=|:|\bmeans\b|\bis\b|\bdenotes\b|\bstands[ ]for\b|\bheißt\b|\bbedeutet\b|\bist\b)[ \t]*"
@@ -132,7 +133,7 @@ def _use(text: str, match: re.Match[str], marks: Sequence[_Mark], named: Callabl
         return None
     for mark in marks:
         primes = "'" * mark.order
-        for bare in (name.removeprefix(mark.text), name.removesuffix(mark.text)):
+        for bare in (name.removesuffix(f"_{mark.text}"), name.removeprefix(mark.text), name.removesuffix(mark.text)):
             if bare not in ("", name) and named(bare):
                 return *match.span("name"), f"{bare}{primes}"
         if name == mark.text and (of := _OF.match(text, match.end())) is not None and named(of["of"]):

@@ -114,6 +114,7 @@ _TIME = re.compile(r"(?<![\w\\])t[ ]?=[ ]?(?P<own>[^\W\d_]\w{0,15}+)(?![\w'’�
 """The letter of time for a coordinate, t = theta, where nothing is differentiated by it."""
 _BY_TIME = re.compile(r"d[ ]?t(?!\w)|\([ ]?t[ ]?\)|(?<!\w)t[ ]?(?:>|>=|→)[ ]?0")
 _ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
+_RATE = re.compile(r"([^\W\d_]\w{0,15}+)['’′](?!\w)")
 _SIGNS = frozenset("-+−*/^=(·½¼²³'’′")
 _JOIN = re.compile(r"[(){}\[\]]|(?:,|;|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
 _STATED = re.compile(r"(?<![\w\\])\\?([^\W\d]\w{0,15}+)\*?[ \t]*+=(?!=)")
@@ -310,6 +311,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             return None  # p stands for sin theta, for 2 m
         if before.split() and system.find(_bare(before.split()[-1])):
             return None  # U = m e
+        if any(map(system.find, _RATE.findall(before))):
+            return None  # v = r', on the line above J w' = M
         if any(x.lower() in CHANGING for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
             return None  # B is the damper's force, b times speed
         if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):

@@ -136,6 +136,12 @@ _IN_BRACKETS = re.compile(
     rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
 )
 """A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
+_EQUAL_IN_BRACKETS = re.compile(
+    rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
+    rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})\([ \t]*=[ \t]*(?P<value>[^()=,;\n]{{1,80}}?)[ \t]*\)"
+)
+"""A name, what it is, and its value: w absolute rate of the panel (= dphi/dt + dpsi/dt)."""
+_BY_TIME = re.compile(r"(?<!\w)d[ ]?(?P<of>[^\W\d_]\w{0,15}?)[ ]?/[ ]?dt(?!\w)")
 _IS_RATE = re.compile(
     rf"(?<![\w.*/^+=])(?P<new>{_NAME})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
     rf"(?P<value>{_NAME}['’′]{{1,2}})(?=[ \t]*(?:[.,;:)]|$|and\b|und\b))",
@@ -198,24 +204,33 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
     rate in brackets behind them."""
     written = _with_listed_states(written)
     edits: list[Edit] = []
-    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _IS_RATE, _BY, _FOR_SUM):
+    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _EQUAL_IN_BRACKETS, _IS_RATE, _BY, _FOR_SUM):
         for match in form.finditer(written.text):
             spoken = match.groupdict().get("words") or ""
-            names = [x for x in re.findall(r"[^\W\d_²³]\w*", match["value"]) if function_of(x) is None]
+            value = _BY_TIME.sub(r"\g<of>'", match["value"])
+            names = [x for x in re.findall(r"[^\W\d_²³]\w*", value) if function_of(x) is None]
             if (
                 not names
                 or not all(_is_product(x, taken) for x in names)
                 or any(map(taken, [match["new"], *spoken.split()]))
             ):
                 continue
-            if _is_word(match["new"], written.text):
+            if _is_word(match["new"], written.text) or (form is _EQUAL_IN_BRACKETS and not _is_letter(match["new"])):
                 continue
             if "end" in form.groupindex:  # a long value keeps its places
                 edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
                 edits.append((*match.span("end"), ";"))
             else:
-                edits.append((*match.span(), f"; {match['new']} = {match['value']};"))
+                edits.append((*match.span(), f"; {match['new']} = {value};"))
     return written.edited(apart(edits))
+
+
+def _is_letter(name: str) -> bool:
+    """Whether a name is a letter, perhaps with a number, a few capitals or a spelled Greek letter, and neither a common
+    word nor the letter of an energy: w1, Th2, omega; no "the arm (= l)"."""
+    stem = name.rstrip("0123456789_")
+    spelled = stem in SPELLED.values() or name != stem or (len(name) <= MOST_LETTERS and not name.islower())
+    return (len(name) == 1 or spelled) and stem not in {*"TVUKLEDWIaA"}
 
 
 def _is_product(name: str, taken: Callable[[str], bool]) -> bool:

@@ -21,6 +21,12 @@ _SAID = re.compile(
     r"\b(?:dots?|derivatives?|rates?)\b",
     re.IGNORECASE,
 )
+_EXPLAINED = re.compile(
+    r"\b(?:index|subscript|suffix)[ ]t[ ]{0,3}(?:=|:|means|is|denotes|stands[ ]for|for|bedeutet|heißt|ist)[ ]{0,3}"
+    r"(?:the[ ]|a[ ]|die[ ])?(?:d[ ]?/[ ]?dt\b|(?:time[ -]?|partial[ ])?(?:derivative|rate)s?\b|(?:Zeit)?Ableitung)",
+    re.IGNORECASE,
+)
+"""Words that say it of every letter that is none of a constant."""
 
 
 def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -28,18 +34,20 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
 
     ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system. Names of the answer's
     own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a
-    value: M_t = m_1 + m_2 is a mass.
+    value: M_t = m_1 + m_2 is a mass; and where words explain the index, if the names stand without it, too.
     """
     text = written.text
     latex = "\\" in text or "$" in text
     form = _LATEX if latex else _PLAIN
     found = [m for m in form.finditer(text) if not taken(_name(m.group()))]
     twice = any((m["by"] == "tt") and moves(_name(m["of"])) for m in found)
-    if not found or not (twice or _SAID.search(text) is not None):
+    explained = _EXPLAINED.search(text) is not None
+    if not found or not (twice or explained or _SAID.search(text) is not None):
         return written
     names = {m["of"]: m for m in sorted(found, key=lambda m: m["by"] == "tt") if not taken(_name(m["of"]))}
     own = {of for of, m in names.items() if not _is_stated(text, of)}
     own = {of for of in own if names[of]["by"] == "tt" or _is_valued(text, of, form, moves)}
+    own |= {x for x in names if explained and re.search(rf"(?<![\w\\]){re.escape(x)}(?![\w{{]|_)", text)}
     kept = [m for m in found if moves(_name(m["of"])) or m["of"] in own]
     return written.edited((*m.span(), _written(m, latex=latex)) for m in kept)
 
