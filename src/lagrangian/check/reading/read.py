@@ -212,7 +212,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     given, lines = text, Lines(model, reading.names(model))
     remarks = without_side_remarks(text, model, lines.names.known)
     typed = Source(plainer(remarks.text if reading.bare else text), "the answer", place)
-    plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
+    apart = with_variants_apart(without_notations(typed, lines), lines.names.changes, partial(_has, lines))
+    plain = with_starred_names(apart, lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated = called.text != plain.text
     plain, comments = _with_comments(called if reading.rated else plain, reading)
@@ -274,6 +275,11 @@ def _left_out(
 ) -> Answer:
     """The answer without some lines; what these say of a name no sentence says."""
     return _with_said_values(reading, [], without_lines(text, numbers), model, place, asked)
+
+
+def _has(lines: Lines, name: str) -> bool:
+    """Whether the system has a name."""
+    return bool(lines.names.scope.meanings(name)[0])
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
