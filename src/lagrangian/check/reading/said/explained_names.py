@@ -3,6 +3,7 @@
 I(phi) ... moment of inertia about the pin, J + m*l^2      I(phi) = J + m*l^2
 K ... static moment, (m*l/2 + M*l)*g                       K = (m*l/2 + M*l)*g
 Q: everything that turns, seen from O, = J + m l²          Q = J + m l²
+z = height of the plate (= l sin φ). Then …                z = l sin φ; Then …
 Here K is k*(r*phi - s), and A stands for b*s'             K = k*(r*phi - s); A = b*s'
 
 A letter that would be read as a name of the system in the other case, K as k, is a name of its own there.
@@ -33,6 +34,14 @@ _LEGEND = re.compile(
     re.MULTILINE,
 )
 """A line with a name, what it is in words, and its formula."""
+_BRACKETED = re.compile(
+    rf"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.,;:][ ])|(?<!\w)(?:let|with|where|here|mit|wobei|sei)[ \t]++)(?P<new>{_NAME})"
+    r"[ \t]*+(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|be|ist|means|denotes)\b)[ \t]*+"
+    r"(?P<words>[^\W\d_]{2,24}(?:[ ,'’/-]{1,3}[^\W\d_]{1,24}){0,14})[ \t]*+"
+    r"\([ \t]*+=(?P<value>(?:[^()\n=;:…]|\([^()\n=]{0,80}\)){2,200})\)[ \t]*+(?:[.;,](?=\s|$)|$)",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name, what it is in words, and its formula in brackets with an equals sign."""
 _SAID = re.compile(
     rf"(?:^[ \t]*+|(?<=[.,;:][ ])|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})[ \t]++"
     r"(?:is|being|means|denotes|stands[ \t]for|is[ \t]short[ \t]for|abbreviates|ist|bezeichnet|steht[ \t]für)[ \t]++"
@@ -56,13 +65,16 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
     """
     text = written.text
     edits: list[Edit] = []
-    for match in islice(_LEGEND.finditer(text), MOST):
+    for match in (*islice(_LEGEND.finditer(text), MOST), *islice(_BRACKETED.finditer(text), MOST)):
         words = re.findall(r"[^\W\d_]+", match["words"])
         spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
         changed = any(x.lower() in CHANGING for x in words) or _is_rate(match["words"], match["new"])
-        said = is_formula(match["value"], taken) or (bool(match["equals"]) and _is_product(match["value"], taken))
+        equals = match.re is _BRACKETED or bool(match["equals"])
+        said = is_formula(match["value"], taken) or (equals and _is_product(match["value"], taken))
         if spoken and not changed and said and _is_new(match, text, exact):
-            edits.append((match.start("new"), match.start("value"), f"{match['new']}{match['of'] or ''} = "))
+            of = match.groupdict().get("of") or ""
+            edits.append((match.start("new"), match.start("value"), f"{match['new']}{of} = "))
+            edits += [(match.end("value"), match.end(), ";")] if match.re is _BRACKETED else []
     for match in islice(_SAID.finditer(text), MOST):
         own = match["new"] not in _names(match["value"]) and _is_new(match, text, exact)
         if own and is_formula(match["value"], taken):

@@ -304,8 +304,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             return None  # p stands for sin theta, for 2 m
         if before.split() and system.find(_bare(before.split()[-1])):
             return None  # U = m e
-        if any(x.lower() in CHANGING for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
-            return None  # B is the damper's force, b times speed
+        if any(x.lower() in CHANGING or function_of(x) for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
+            return None  # B is the damper's force, b times speed; z is the height, l sin θ
         if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):
             return None  # M is m L, g (m1 - m2)
         if not alone or _PREPOSITIONS.isdisjoint(before.lower().split()):
