@@ -71,6 +71,7 @@ from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
+from lagrangian.check.reading.said.spoken_dots import with_spoken_dots
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -142,7 +143,8 @@ def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedT
     def has(name: str) -> bool:
         return key(name) in own
 
-    paired = with_paired_rates(with_raised_dots(text, names.changes), names.changes, has)
+    raised = with_raised_dots(with_spoken_dots(text, names.changes), names.changes)
+    paired = with_paired_rates(raised, names.changes, has)
     pointed = with_p_as_points(with_derivative_legends(paired, names.changes, has), names.changes, has)
     return without_glosses_of_rates(pointed, names.changes)
 

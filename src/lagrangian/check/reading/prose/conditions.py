@@ -19,7 +19,7 @@ _RELATION = (
 _LINK = r"[ \t]*(?:,|and|or|und|oder|et)[ \t]+"
 CONDITION = re.compile(
     r"(?<!\w)(?:(?:V|U|PE|E_?pot)[ \t]*=[ \t]*0[ \t]+)?"
-    r"(?:at(?![ \t]+[^\s=]{1,20}['’′]{2})|if|when|whenever|for|unless|"
+    r"(?P<word>at(?![ \t]+[^\s=]{1,20}['’′]{2})|if|when|whenever|for|unless|"
     r"(?:provided|assuming)(?:[ \t]that)?|wenn|falls|für|bei|sofern|si|pour)"
     rf"[ \t]+(?:[^\W\d_]{{2,12}}[ \t]+){{0,2}}?(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
     r"(?=[ \t]*(?:$|[,.;:)]|[^\W\d_]{2}))",
@@ -28,7 +28,7 @@ CONDITION = re.compile(
 """A condition, whose values are numbers or names, and the zero of V that it is."""
 IF = frozenset(["if", "when", "whenever", "unless", "wenn", "falls", "si"])
 _SIDES = re.compile(
-    rf"(?<!\w)(?:{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
+    rf"(?<!\w)(?P<word>{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
     r"(?=[ \t]*[,;][ \t]|[ \t]*\.?[ \t]*$|[ \t]+(?:[^\W\d_]{2,20}[ \t]+){2})",
     re.IGNORECASE | re.MULTILINE,
 )
@@ -67,7 +67,8 @@ def without_conditions(text: str, words: Words) -> str:
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
-        text = blank(text, *match.span("said" if match.re is _GONE else 0))
+        if match.re not in (CONDITION, _SIDES) or not words.is_name(match["word"]):  # si = sin ψ is a factor
+            text = blank(text, *match.span("said" if match.re is _GONE else 0))
     for match in _REFERENCE.finditer(text):
         spoken = [x for x in _WORD.findall(f"{match['words']} {match['more']}") if not words.readable(x)]
         if spoken and words.names.changes(match["name"]):
