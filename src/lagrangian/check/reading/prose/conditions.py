@@ -1,6 +1,7 @@
 """Sets aside what holds only under a condition: x is cyclic if F = 0 and b = 0; for J = 0 we get l θ'' + g sin θ = 0.
 
-The condition says nothing of the system. An equation in the same sentence is one of a special case, a remark.
+The condition says nothing of the system. An equation in the same sentence is one of a special case, a remark. So is for
+which virtual motions an equation holds, for all φ*: they are no factors of it.
 """
 
 from __future__ import annotations
@@ -38,6 +39,16 @@ _REFERENCE = re.compile(
     r"(?:[ \t]?/[ \t]?\d)?(?P<more>[^()\[\]=\n+*^]{0,60})[)\]]"
 )
 """Where a coordinate is zero, or V, in brackets and in words: (spring relaxed, x = 0)."""
+_VIRTUAL = rf"(?:δ[ ]?|delta[ _]?)?{_NAME}[*⋆]?"
+_FOR_ALL = re.compile(
+    r"(?<!\w)(?:(?:for|pour|für|per|para)[ \t]+(?:all|any|every|each|arbitrary|tout(?:es?|s)?|tous|alle|jedes?|jeden"
+    r"|beliebiges?|todos?|todas?|ogni)|∀|quel(?:le)?s?[ ]que[ ]soi(?:en)?t)[ \t]*(?:[^\W\d_]{3,16}[ \t]+){0,3}?"
+    rf"(?P<names>{_VIRTUAL}(?:[ \t]*(?:,|and|et|und)[ \t]*{_VIRTUAL}){{0,5}})"
+    r"(?=[ \t]*(?:[:;,]|\.?[ \t]*$))[ \t]*:?",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""The virtual motions for which an equation holds, in front of it or behind it."""
+_AND = re.compile(r",|[ \t](?:and|et|und)[ \t]")
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _CASE = re.compile(
     rf"^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?[ \t]*(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
@@ -69,6 +80,10 @@ def without_conditions(text: str, words: Words) -> str:
     for match in found:
         if match.re not in (CONDITION, _SIDES) or not words.is_name(match["word"]):  # si = sin ψ is a factor
             text = blank(text, *match.span("said" if match.re is _GONE else 0))
+    for match in _FOR_ALL.finditer(text):
+        named = (x.strip().removeprefix("delta").strip("δ_*⋆'’′ ") for x in _AND.split(match["names"]))
+        if all(x == "t" or words.names.changes(x) for x in named):
+            text = blank(text, *match.span())
     for match in _REFERENCE.finditer(text):
         spoken = [x for x in _WORD.findall(f"{match['words']} {match['more']}") if not words.readable(x)]
         if spoken and words.names.changes(match["name"]):
