@@ -71,6 +71,7 @@ from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
+from lagrangian.check.reading.said.side_by_side import with_definitions_apart
 from lagrangian.check.reading.said.spoken_dots import with_spoken_dots
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
@@ -185,7 +186,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     copied = _copied(text)
     if not LATEX.search(text):
         copied = without_anonymous_functions(copied, taken)
-        copied = with_factors_named_behind(without_leading_words(copied, taken), taken)
+        copied = with_definitions_apart(without_leading_words(copied, taken), taken)
+        copied = with_factors_named_behind(copied, taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
