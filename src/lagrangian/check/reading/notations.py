@@ -70,8 +70,8 @@ from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
-from lagrangian.check.reading.said.spelled_apart import with_letters_apart
 from lagrangian.check.reading.said.side_by_side import with_definitions_apart
+from lagrangian.check.reading.said.spelled_apart import with_letters_apart
 from lagrangian.check.reading.said.spoken_dots import with_spoken_dots
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,

@@ -1,5 +1,5 @@
-r"""Two forms of one letter that an answer in LaTeX tells apart: ``\vartheta = -\theta``, and ``\ell``, which moves, beside
-a constant ``l``.
+r"""Two forms of one letter that an answer in LaTeX tells apart: ``\vartheta = -\theta``, and ``\ell``, which moves,
+beside a constant ``l``.
 
 Everywhere else both are the same letter.
 """

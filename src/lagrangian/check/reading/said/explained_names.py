@@ -29,14 +29,15 @@ _NAME = r"[^\W\d]\w{0,15}+"
 _LEGEND = re.compile(
     rf"^[ \t]*+(?:[-*•–][ \t]++)?(?P<new>{_NAME})(?P<of>\([ ]?{_NAME}[ ]?\))?[ \t]*+"
     r"(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|ist|means|denotes)\b)[ \t]*+"
-    r"(?P<words>[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}[^\W\d_]{1,24}){0,14})\)?[ \t]*+(?:[,:–][ \t]*+(?P<equals>=)|[,:=–])[ \t]*+"
-    r"(?P<value>[^\n=;:…]{2,200}?)[ \t]*+[.;,]?[ \t]*+$",
+    r"(?P<words>[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}[^\W\d_]{1,24}){0,14})\)?"
+    r"[ \t]*+(?:[,:–][ \t]*+(?P<equals>=)|[,:=–])[ \t]*+(?P<value>[^\n=;:…]{2,200}?)[ \t]*+[.;,]?[ \t]*+$",
     re.MULTILINE,
 )
 """A line with a name, what it is in words, and its formula."""
 _BRACKETED = re.compile(
-    rf"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.,;:][ ])|(?<!\w)(?:let|with|where|here|mit|wobei|sei)[ \t]++)(?P<new>{_NAME})"
-    r"[ \t]*+(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|be|ist|means|denotes)\b)[ \t]*+"
+    rf"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.,;:][ ])|(?<!\w)(?:let|with|where|here|mit|wobei|sei)[ \t]++)"
+    rf"(?P<new>{_NAME})[ \t]*+"
+    r"(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|be|ist|means|denotes)\b)[ \t]*+"
     r"(?P<words>[^\W\d_]{2,24}(?:[ ,'’/-]{1,3}[^\W\d_]{1,24}){0,14})[ \t]*+"
     r"\([ \t]*+=(?P<value>(?:[^()\n=;:…]|\([^()\n=]{0,80}\)){2,200})\)[ \t]*+(?:[.;,](?=\s|$)|$)",
     re.MULTILINE | re.IGNORECASE,

@@ -32,8 +32,8 @@ _POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹¼½¾⅓", " " * 14)
 def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text in which a semicolon stands between such definitions.
 
-    Each name but the first is none of the system, which ``taken`` tells, has no other value, and is used elsewhere; what
-    stands in front of it is a value in names that are known.
+    Each name but the first is none of the system, which ``taken`` tells, has no other value, and is used elsewhere;
+    what stands in front of it is a value in names that are known.
     """
     text = written.text
     edits: list[Edit] = []
@@ -45,7 +45,11 @@ def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) ->
         ends = [x.start() for x in found]
         values = [row[row.find("=", a) + 1 : b] for a, b in zip([0, *ends[:-1]], ends, strict=True)]
         own = {row.partition("=")[0].strip(), *(x["new"] for x in found)}
-        if len(own) > len(found) and all(_is_own(x["new"], text, taken) for x in found) and all(_is_value(x, own, taken) for x in values):
+        if (
+            len(own) > len(found)
+            and all(_is_own(x["new"], text, taken) for x in found)
+            and all(_is_value(x, own, taken) for x in values)
+        ):
             edits += [(start + x.start("gap"), start + x.end("gap"), "; ") for x in found]
     return written.edited(edits)
 

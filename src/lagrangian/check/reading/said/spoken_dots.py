@@ -16,7 +16,8 @@ from lagrangian.check.reading.traced_text import TracedText
 _NAME = r"[^\W\d_]\w{0,15}+"
 _TWICE = r"(?:(?P<twice>double|two|second|zwei|doppel|deux|dos)[ \t-]?)?"
 _DOTS = re.compile(
-    rf"(?<![\w\\.'’′])(?P<name>{_NAME})[ \t-]{_TWICE}(?P<d>d)?(?:dots?|punkte?)(?![\w(.:'’′]\w|\()(?![ \t]+(?P=name)(?![\w'’′]))",
+    rf"(?<![\w\\.'’′])(?P<name>{_NAME})[ \t-]{_TWICE}(?P<d>d)?(?:dots?|punkte?)(?![\w(.:'’′]\w|\()"
+    r"(?![ \t]+(?P=name)(?![\w'’′]))",
     re.IGNORECASE,
 )
 _POINTS = re.compile(
