@@ -17,7 +17,7 @@ MOST = 40
 MOST_LETTERS = 3
 """The most letters of a product without signs in a value."""
 
-_NAME = r"[^\W\d]\w{0,15}+"
+_NAME = r"(?:[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]{0,15}+)(?![⁰¹²³⁴-⁹])"
 _ROW = re.compile(
     rf"(?:^|(?<=[,;:.])[ \t]|(?<!\w)(?:with|where|let|mit|avec|wobei)[ \t])[ \t]*+(?P<row>{_NAME}[ \t]*+=(?![=>])"
     r"(?=[^\n,;=]{1,200}=)[^\n,;]{2,400})",
@@ -25,6 +25,8 @@ _ROW = re.compile(
 )
 """A definition and at least one more equals sign, without a mark between them."""
 _SECOND = re.compile(rf"(?<=[\w)\]²³'’′])(?P<gap>[ \t]{{1,2}})(?P<new>{_NAME})[ \t]*=(?![=>])")
+_SAID = r"[ \t]*(?::(?!=)|…|\.{2}|\b(?:is|are|being|denotes|means|stands|for|ist|bezeichnet|bedeutet|steht|est)\b)"
+"""What stands behind a name of which words say what it is."""
 _WORD = re.compile(r"[^\W\d_]\w*")
 _POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹¼½¾⅓", " " * 14)
 
@@ -32,8 +34,8 @@ _POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹¼½¾⅓", " " * 14)
 def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text in which a semicolon stands between such definitions.
 
-    Each name but the first is none of the system, which ``taken`` tells, has no other value, and is used elsewhere;
-    what stands in front of it is a value in names that are known.
+    Each name but the first is none of the system, which ``taken`` tells, has no other value or meaning, and is used
+    elsewhere; what stands in front of it is a value in names that are known.
     """
     text = written.text
     edits: list[Edit] = []
@@ -58,7 +60,9 @@ def _is_own(name: str, text: str, taken: Callable[[str], bool]) -> bool:
     """Whether a name is one of the answer's own, with one value, that is used."""
     whole = rf"(?<!\w){re.escape(name)}(?!\w)"
     stated = re.search(rf"(?:^|[,;:.])[ \t]*{whole}[ \t]*:?=(?!=)", text, re.MULTILINE)
-    return not taken(name) and function_of(name) is None and stated is None and len(re.findall(whole, text)) > 1
+    said = re.search(rf"{whole}{_SAID}", text)
+    own = not taken(name) and function_of(name) is None
+    return own and stated is None and said is None and len(re.findall(whole, text)) > 1
 
 
 def _is_value(value: str, own: set[str], taken: Callable[[str], bool]) -> bool:
