@@ -81,13 +81,17 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
 
     A line that says it is an identity, and no line at all if it is right or if it says the same of the rate. What holds
     in a special case alone, x = 0 (s = −R θ), is not said beside what holds always. A rate that is said, γ̇ = (R/r) β̇,
-    is put in as what it is the rate of.
+    is put in as what it is the rate of. What is said in letters and again in numbers is in numbers only where a line
+    has no letters.
     """
     table: dict[Any, sp.Expr] = {}
+    numbers: dict[Any, sp.Expr] = {}
+    letters = {p.symbol for p in truth.model.parameters}
     out: list[AnsweredLine] = []
     values = [_value(truth, line) for line in lines]
     always = {x[0] for x, line in zip(values, lines, strict=True) if x is not None and "case" not in line.beside}
     placed = {x[0]: x[1] for x in values if x is not None and not x[2]}
+    lettered = {x[0] for x in values if x is not None and x[1].free_symbols & letters}
     for line, value in zip(lines, values, strict=True):
         if value is None or ("case" in line.beside and value[0] in always):
             out.append(line)
@@ -99,13 +103,15 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
             continue
         way = integrated(truth, said) if of_rate else said
         again = of_rate and z in placed and zero_everywhere(truth, sp.diff(placed[z], time) - said)
-        table |= {} if way is None or (of_rate and z in placed) or zero_everywhere(truth, rest) else {z: way}
+        if way is not None and not (of_rate and z in placed) and not zero_everywhere(truth, rest):
+            (numbers if z in lettered and not way.free_symbols & letters else table)[z] = way
         turned = truth.expand(z).has(sp.Derivative) and zero_everywhere(truth, truth.expand(z + said))
         if again or turned or _is_true(truth, rest):  # a speed may be counted in the other sense
             out.append(replace(line, kind="statement", expr=sp.S.Zero))
         else:
             out.append(replace(line, kind="identity", expr=rest, name=str(z.func) + of_rate * "'"))
-    return tuple(_put(line, table) for line in out) if table else tuple(out)
+    tables = (table if line.expr.free_symbols & letters else {**table, **numbers} for line in out)
+    return tuple(_put(line, own) if own else line for line, own in zip(out, tables, strict=True))
 
 
 def _is_true(truth: Reference, rest: sp.Expr) -> bool:

@@ -324,7 +324,16 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
         return text(f"{line.kind} may differ by the time derivative of a function: no equation changes")
     if line.kind == "D" and all(zero_everywhere(truth, bounded.diff(rest, c.rate)) for c in coordinates):
         return text("up to what no rate changes")
-    return None
+    return text("with the forces that resist as dampers do") if line.kind == "D" and _resists(truth, rest) else None
+
+
+def _resists(truth: Reference, rest: sp.Expr) -> bool:
+    """Whether the slopes by the rates are what elements that are no dampers add to all Ξ because of the rates."""
+    still = {c.rate: sp.S.Zero for c in truth.model.coordinates}
+    drives = [driving(truth, i) for i in range(truth.n)]
+    resisting = [x - x.xreplace(still) for x in drives]
+    slopes = [bounded.diff(rest, c.rate) for c in truth.model.coordinates]
+    return all(zero_everywhere(truth, a + b) for a, b in zip(slopes, resisting, strict=True))
 
 
 def unmoved(truth: Reference, rest: sp.Expr) -> bool:

@@ -8,7 +8,7 @@ import unicodedata
 _SAME = {
     **dict.fromkeys("ʹ´ʼ‘ˈ＇", "'"),
     **dict.fromkeys("“”＂", '"'),
-    **dict.fromkeys("‐‑‒—﹣－", "-"),
+    **dict.fromkeys("‐‑‒—―﹣－", "-"),
     **dict.fromkeys("∗＊✱⁎﹡", "*"),
     **dict.fromkeys("✕⨯╳", "×"),
     **dict.fromkeys("⁄／", "/"),
@@ -48,6 +48,8 @@ _FREEDOMS = re.compile(r"(?<![\w.])\d[-‑]dof(?!\w)", re.IGNORECASE)
 _SMALL = re.compile(r"(?<![\w)\]}⁰-⁹¹²³₀-₉])(?P<above>[⁰¹²³⁴-⁹]{1,3})[⁄/](?P<below>[₀-₉]{1,3})(?P<glued>(?=\w))?")
 """A fraction of small digits: ³⁄₂, also in front of a letter."""
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉", "01234567890123456789")
+_BAR = re.compile("[―⎯‾¯⸺⸻]{2,}|[–−]{4,}")
+"""A horizontal line of several signs, which may be the bar of a fraction; `drawn` has its form."""
 _ASSIGNED = re.compile(r":=|=:|[≔≕]")
 _STYLED = re.compile(
     "[\U0001d400-\U0001d7ff\u210e\u2110-\u2112\u211b\u212c\u2130\u2131\u2133\u2145\u2146\uff01-\uff5e]"
@@ -58,7 +60,8 @@ def plainer(text: str) -> str:
     """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
     characters without width left out."""
     text = _UMLAUT.sub(lambda m: unicodedata.normalize("NFC", m.group()), _SMALL.sub(_fraction, text))
-    text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))).translate(_TABLE)
+    text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n")))
+    text = _BAR.sub(lambda m: "─" * len(m.group()), text).translate(_TABLE)
     text = _FREEDOMS.sub(lambda m: " " * len(m.group()), _TRANSPOSED.sub("^T", text))
     return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))
 

@@ -72,7 +72,9 @@ from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
 from lagrangian.check.reading.said.running_letters import with_running_letters
+from lagrangian.check.reading.said.side_by_side import with_definitions_apart
 from lagrangian.check.reading.said.spelled_apart import with_letters_apart
+from lagrangian.check.reading.said.spoken_dots import with_spoken_dots
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -148,7 +150,8 @@ def _with_rates(text: TracedText, names: Names, own: Collection[str]) -> TracedT
         return key(name) in own
 
     text = with_virtual_velocities(text, names.changes).sub(_DOT_OF_BRACKET, lambda m: "''" if m["two"] else "'")
-    paired = with_paired_rates(with_raised_dots(text, names.changes), names.changes, has)
+    raised = with_raised_dots(with_spoken_dots(text, names.changes), names.changes)
+    paired = with_paired_rates(raised, names.changes, has)
     pointed = with_p_as_points(with_derivative_legends(paired, names.changes, has), names.changes, has)
     return without_glosses_of_rates(pointed, names.changes)
 
@@ -190,7 +193,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     copied = _copied(text)
     if not LATEX.search(text):
         copied = without_anonymous_functions(copied, taken)
-        copied = with_factors_named_behind(without_leading_words(copied, taken), taken)
+        copied = with_definitions_apart(without_leading_words(copied, taken), taken)
+        copied = with_factors_named_behind(copied, taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)

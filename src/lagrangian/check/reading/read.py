@@ -221,7 +221,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     remarks = without_side_remarks(text, model, lines.names.known)
     dots = with_dots_behind(plainer(remarks.text if reading.bare else text), lines.names, stops=reading.stops)
     typed = Source(dots.text, "the answer", place)
-    plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
+    plain = _with_names_apart(without_notations(typed, lines), lines)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated = called.text != plain.text
     plain, comments = _with_comments(called if reading.rated else plain, reading)
@@ -288,6 +288,13 @@ def _left_out(
 ) -> Answer:
     """The answer without some lines; what these say of a name no sentence says."""
     return _with_said_values(reading, [], without_lines(text, numbers), model, place, asked)
+
+
+def _with_names_apart(written: TracedText, lines: Lines) -> TracedText:
+    """An answer in which forms of one letter, and names with a star, are names of their own where they are meant so."""
+    names = lines.names
+    apart = with_variants_apart(written, names.changes, lambda name: bool(names.scope.meanings(name)[0]))
+    return with_starred_names(apart, names.known)
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:

@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import accumulate, islice
 
 from lagrangian.check.reading.prose.blocks import closed, end_below, is_open
@@ -43,6 +44,8 @@ _RELATION = re.compile(
     r"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=|(?<=[ \t])(?:(?:goes|tends)[ \t])?to(?=[ \t](?:infinity|∞|zero|0)\b))"
     rf"[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
 )
+_ANGLE = re.compile(rf"(?P<of>(?<![\w\\*/^+'’′-])(?P<name>{_NAME})[ \t]*=[ \t]*)[-−]?\d{{1,3}}(?:[.,]\d{{1,3}})?[ ]?°")
+"""An angle in degrees."""
 _OFF = rf"(?<![\w*/^+]){_NAME}[ \t]*=[ \t]*{_NAME}[ \t]*\+[ \t]*{_NAME}(?![\w/(])"
 _DEVIATION = re.compile(rf"\W{{0,6}}linear[^\W\d_]{{0,10}}+[^\n=]{{0,40}}{_OFF}", re.IGNORECASE)
 """Linearized about a position, with a letter for how far it is off: Linear, phi = phi_e + eta: …"""
@@ -137,10 +140,16 @@ def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) 
     return _without(text, model, lambda name: name == "t" or known(name))  # at t = 0
 
 
+def _as_zero(match: re.Match[str], moving: Collection[str]) -> str:
+    """A position that a coordinate has in one case, θ = 90°, as θ = 0, which has the same length."""
+    return f"{match['of']}0".ljust(len(match.group())) if key(match["name"]) in moving else match.group()
+
+
 def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemarks:
     lines = text.split("\n")
     starts = [0, *accumulate(len(line) + 1 for line in lines)]
-    found = [x for r in islice(_remarks(lines, starts, known), _MOST) for x in _without_stated(text, r, model)]
+    shown = _ANGLE.sub(partial(_as_zero, moving={key(c.name) for c in model.coordinates}), text).split("\n")
+    found = [x for r in islice(_remarks(shown, starts, known), _MOST) for x in _without_stated(text, r, model)]
     found = [r for r in found if "=" in (part := text[r.start : r.end]) and _is_whole(part)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
     resting = [r for r in found if REST.search(text[r.start : r.end].split("=", 1)[0])]

@@ -30,6 +30,7 @@ _TOKEN = re.compile(
     | \\(?:mathbf|boldsymbol|bm|pmb|underline)\s*
       (?:\{\s*\\?(?P<bold>[A-Za-z]+)\s*\}|\\?(?P<bold1>(?<=\\)[A-Za-z]+|[A-Za-z]))
     | \\(?:mathcal|mathscr|mathfrak)\s*(?:\{\s*(?P<script>[A-Za-z])\s*\}|(?P<script1>[A-Za-z]))
+    | \\overline\s*\{\s*(?P<segment>(?:[A-Z](?:_(?:\w|\{\w{1,3}\}))?){2})\s*\}
     | (?P<delimiter>\\(?:left|right|middle|[bB]igg?[lrm]?)(?![A-Za-z])\s*\.?)
     | \\(?P<command>[A-Za-z]+\*?)
     | (?P<brace>\\[{}])
@@ -91,6 +92,8 @@ def tokenize(source: Source) -> list[AnswerToken]:
             kind, text = "symbol", f"bold {text}"
         elif kind in ("script", "script1"):
             kind, text = "symbol", "ℒ" if text == "L" else text
+        elif kind == "segment":  # the length from A to B
+            kind, text = "upright", re.sub(r"\W|_", "", text)
         elif kind == "begin":
             if match["opens"] not in MATRICES:
                 what = f"the environment {shown(match['opens'])} is not read inside a formula"
@@ -121,7 +124,7 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
         return "skipped", name
     if name in _OPERATORS and _OPERATORS[name] != "other":
         return _OPERATORS[name], name
-    if name in _GREEK or name in ("l", "i", "j", "hbar"):
+    if name in _GREEK or name in ("l", "i", "j", "hbar", "varell"):
         return "symbol", name
     if name in _ACCENTS:
         return "accent", _ACCENTS[name]

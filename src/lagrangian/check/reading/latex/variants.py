@@ -1,4 +1,5 @@
-r"""Two forms of one Greek letter that an answer in LaTeX tells apart: ``\vartheta = -\theta``.
+r"""Two forms of one letter that an answer in LaTeX tells apart: ``\vartheta = -\theta``, and ``\ell``, which moves,
+beside a constant ``l``.
 
 Everywhere else both are the same letter.
 """
@@ -6,6 +7,7 @@ Everywhere else both are the same letter.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from lagrangian.check.reading.traced_text import TracedText
 
@@ -19,10 +21,19 @@ _RELATED = re.compile(
 """One of the two alone on the left, and the other one in what it is."""
 
 
-def with_variants_apart(text: TracedText) -> TracedText:
-    r"""Return a text in which ``\vartheta`` has a name of its own, if it says what this is in terms of ``\theta``."""
+_LENGTH = re.compile(rf"{_ALONE}\\ell(?![A-Za-z])(?:\(t\))?[ \t]{{0,9}}&?=(?P<value>[^$\n;]{{1,300}})", re.MULTILINE)
+_ELL = re.compile(r"\\ell(?![A-Za-z])")
+_WORD = re.compile(r"[A-Za-z]+")
+
+
+def with_variants_apart(text: TracedText, changes: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    r"""Return a text in which ``\vartheta`` has a name of its own, if it says what this is in terms of ``\theta``, and
+    ``\ell``, if it is a length that ``changes`` where the name l, which is ``taken``, does not."""
     apart = {m["new"] or m["old"] for m in _RELATED.finditer(text.text)}
-    if not apart:
+    if apart:
+        form = re.compile(rf"\\(var(?:{'|'.join(sorted(apart))}))(?![A-Za-z])")
+        text = text.sub(form, lambda m: rf"\mathrm{{{m[1]}}}")
+    if not taken("l") or changes("l"):
         return text
-    form = re.compile(rf"\\(var(?:{'|'.join(sorted(apart))}))(?![A-Za-z])")
-    return text.sub(form, lambda m: rf"\mathrm{{{m[1]}}}")
+    moves = any(any(map(changes, _WORD.findall(m["value"]))) for m in _LENGTH.finditer(text.text))
+    return text.sub(_ELL, lambda _: r"\varell ") if moves else text

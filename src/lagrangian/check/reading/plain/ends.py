@@ -23,6 +23,10 @@ NEAR = 60
 _LONG_WORD = re.compile(r"[^\W\d_]{3,}")
 NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
 """A name that gets a value."""
+_INTRODUCES = re.compile(
+    r"[ \t]++(?:with|where|let|here|using|setting|putting|mit|wobei|sei|hier|avec|où|soit)(?=[ \t])", re.IGNORECASE
+)
+"""A word in front of a name that gets a value."""
 MOST = 60
 """The most sides over several lines that are looked at."""
 _SIDE_OF_LINES = re.compile(
@@ -54,8 +58,10 @@ def open_brackets(text: str) -> int:
 
 
 def defines_behind(text: str, first: int, stop: tuple[int, int]) -> bool:
-    """Whether a sentence ends at a point, and a name gets a value behind it: the force N in y. s = sin(alpha)."""
-    if NAME_NEXT.match(text, stop[1]) is None:
+    """Whether a sentence ends at a point, and a name gets a value behind it: the force N in y. s = sin(alpha). A word
+    may introduce it: (H accelerates). With ω = φ' + ψ'."""
+    introduced = _INTRODUCES.match(text, stop[1])
+    if NAME_NEXT.match(text, introduced.end() if introduced else stop[1]) is None:
         return False
     words = islice(_LONG_WORD.finditer(text, max(first, stop[0] - NEAR), stop[0]), FEWEST_WORDS)
     return sum(1 for _ in words) == FEWEST_WORDS

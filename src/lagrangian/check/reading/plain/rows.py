@@ -170,7 +170,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     begin = {row.start for row in rows}  # labels behind commas: of A: x' = a, of B: y' = b
     split = [x if x.start in begin else replace(x, text=before(x.text, words, numbers)) for x in split]
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
-    found = [AnswerRow(row.start, without_sides_in_words(_bare(row.text, words), words)) for row in split]
+    found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
     if len(found) > 1:
         told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words)]
         found, split = [row for row, _ in told], [own for _, own in told]
@@ -186,11 +186,12 @@ def _ended(head: str, line: str, numbers: Numbering, words: Words) -> str:
 
 
 def _bare(text: str, words: Words) -> str:
-    """A statement without the words in front of it and behind it."""
-    bare = without_lead(text, words)
-    if "=" not in text and bare != text and not moves(bare):
-        return text  # I divided the second by m*l^2
-    return without_tail(bare, words, led=bare != text and "=" in text)
+    """A statement without the words in front of it and behind it, and without sides in words."""
+    said = without_sides_in_words(text, words)  # I = J + m l² = all inertia at the axle: "all" is no a l l
+    bare = without_lead(said, words)
+    if "=" not in said and bare != said and not moves(bare):
+        return said  # I divided the second by m*l^2
+    return without_sides_in_words(without_tail(bare, words, led=bare != said and "=" in said), words)
 
 
 def _explained(row: AnswerRow, own: AnswerRow, words: Words) -> bool:

@@ -1,6 +1,7 @@
 """Sets aside what holds only under a condition: x is cyclic if F = 0 and b = 0; for J = 0 we get l θ'' + g sin θ = 0.
 
-The condition says nothing of the system. An equation in the same sentence is one of a special case, a remark.
+The condition says nothing of the system. An equation in the same sentence is one of a special case, a remark. So is for
+which virtual motions an equation holds, for all φ*: they are no factors of it.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ _RELATION = (
 _LINK = r"[ \t]*(?:,|and|or|und|oder|et)[ \t]+"
 CONDITION = re.compile(
     r"(?<!\w)(?:(?:V|U|PE|E_?pot)[ \t]*=[ \t]*0[ \t]+)?"
-    r"(?:at(?![ \t]+[^\s=]{1,20}['’′]{2})|if|when|whenever|for|unless|"
+    r"(?P<word>at(?![ \t]+[^\s=]{1,20}['’′]{2})|if|when|whenever|for|unless|"
     r"(?:provided|assuming)(?:[ \t]that)?|wenn|falls|für|bei|sofern|si|pour)"
     rf"[ \t]+(?:[^\W\d_]{{2,12}}[ \t]+){{0,2}}?(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
     r"(?=[ \t]*(?:$|[,.;:)]|[^\W\d_]{2}))",
@@ -28,7 +29,7 @@ CONDITION = re.compile(
 """A condition, whose values are numbers or names, and the zero of V that it is."""
 IF = frozenset(["if", "when", "whenever", "unless", "wenn", "falls", "si"])
 _SIDES = re.compile(
-    rf"(?<!\w)(?:{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
+    rf"(?<!\w)(?P<word>{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
     r"(?=[ \t]*[,;][ \t]|[ \t]*\.?[ \t]*$|[ \t]+(?:[^\W\d_]{2,20}[ \t]+){2})",
     re.IGNORECASE | re.MULTILINE,
 )
@@ -38,6 +39,16 @@ _REFERENCE = re.compile(
     r"(?:[ \t]?/[ \t]?\d)?(?P<more>[^()\[\]=\n+*^]{0,60})[)\]]"
 )
 """Where a coordinate is zero, or V, in brackets and in words: (spring relaxed, x = 0)."""
+_VIRTUAL = rf"(?:δ[ ]?|delta[ _]?)?{_NAME}[*⋆]?"
+_FOR_ALL = re.compile(
+    r"(?<!\w)(?:(?:for|pour|für|per|para)[ \t]+(?:all|any|every|each|arbitrary|tout(?:es?|s)?|tous|alle|jedes?|jeden"
+    r"|beliebiges?|todos?|todas?|ogni)|∀|quel(?:le)?s?[ ]que[ ]soi(?:en)?t)[ \t]*(?:[^\W\d_]{3,16}[ \t]+){0,3}?"
+    rf"(?P<names>{_VIRTUAL}(?:[ \t]*(?:,|and|et|und)[ \t]*{_VIRTUAL}){{0,5}})"
+    r"(?=[ \t]*(?:[:;,]|\.?[ \t]*$))[ \t]*:?",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""The virtual motions for which an equation holds, in front of it or behind it."""
+_AND = re.compile(r",|[ \t](?:and|et|und)[ \t]")
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _CASE = re.compile(
     rf"^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?[ \t]*(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
@@ -67,7 +78,12 @@ def without_conditions(text: str, words: Words) -> str:
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
-        text = blank(text, *match.span("said" if match.re is _GONE else 0))
+        if match.re not in (CONDITION, _SIDES) or not words.is_name(match["word"]):  # si = sin ψ is a factor
+            text = blank(text, *match.span("said" if match.re is _GONE else 0))
+    for match in _FOR_ALL.finditer(text):
+        named = (x.strip().removeprefix("delta").strip("δ_*⋆'’′ ") for x in _AND.split(match["names"]))
+        if all(x == "t" or words.names.changes(x) for x in named):
+            text = blank(text, *match.span())
     for match in _REFERENCE.finditer(text):
         spoken = [x for x in _WORD.findall(f"{match['words']} {match['more']}") if not words.readable(x)]
         if spoken and words.names.changes(match["name"]):

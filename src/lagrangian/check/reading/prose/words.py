@@ -31,7 +31,7 @@ SPELLINGS = {
     **dict.fromkeys(["arctg", "atg", "arctang"], "atan"),
     "senh": "sinh",
     "tgh": "tanh",
-    **dict.fromkeys(["raiz", "raíz", "wurzel"], "sqrt"),
+    **dict.fromkeys(["raiz", "raíz", "wurzel", "racine", "radice"], "sqrt"),
 }
 """How other languages write functions."""
 

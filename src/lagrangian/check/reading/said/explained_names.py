@@ -2,6 +2,8 @@
 
 I(phi) ... moment of inertia about the pin, J + m*l^2      I(phi) = J + m*l^2
 K ... static moment, (m*l/2 + M*l)*g                       K = (m*l/2 + M*l)*g
+Q: everything that turns, seen from O, = J + m l²          Q = J + m l²
+z = height of the plate (= l sin φ). Then …                z = l sin φ; Then …
 Here K is k*(r*phi - s), and A stands for b*s'             K = k*(r*phi - s); A = b*s'
 
 A letter that would be read as a name of the system in the other case, K as k, is a name of its own there.
@@ -27,11 +29,20 @@ _NAME = r"[^\W\d]\w{0,15}+"
 _LEGEND = re.compile(
     rf"^[ \t]*+(?:[-*•–][ \t]++)?(?P<new>{_NAME})(?P<of>\([ ]?{_NAME}[ ]?\))?[ \t]*+"
     r"(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|ist|means|denotes)\b)[ \t]*+"
-    r"(?P<words>[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}[^\W\d_]{1,24}){0,14})\)?[ \t]*+[,:=–][ \t]*+"
-    r"(?P<value>[^\n=;:…]{2,200}?)[ \t]*+[.;,]?[ \t]*+$",
+    r"(?P<words>[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}[^\W\d_]{1,24}){0,14})\)?"
+    r"[ \t]*+(?:[,:–][ \t]*+(?P<equals>=)|[,:=–])[ \t]*+(?P<value>[^\n=;:…]{2,200}?)[ \t]*+[.;,]?[ \t]*+$",
     re.MULTILINE,
 )
 """A line with a name, what it is in words, and its formula."""
+_BRACKETED = re.compile(
+    rf"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.,;:][ ])|(?<!\w)(?:let|with|where|here|mit|wobei|sei)[ \t]++)"
+    rf"(?P<new>{_NAME})[ \t]*+"
+    r"(?:\.{2,9}|…|[:=–—]|-{1,3}(?=[ \t])|\b(?:is|be|ist|means|denotes)\b)[ \t]*+"
+    r"(?P<words>[^\W\d_]{2,24}(?:[ ,'’/-]{1,3}[^\W\d_]{1,24}){0,14})[ \t]*+"
+    r"\([ \t]*+=(?P<value>(?:[^()\n=;:…]|\([^()\n=]{0,80}\)){2,200})\)[ \t]*+(?:[.;,](?=\s|$)|$)",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name, what it is in words, and its formula in brackets with an equals sign."""
 _SAID = re.compile(
     rf"(?:^[ \t]*+|(?<=[.,;:][ ])|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})[ \t]++"
     r"(?:is|being|means|denotes|stands[ \t]for|is[ \t]short[ \t]for|abbreviates|ist|bezeichnet|steht[ \t]für)[ \t]++"
@@ -43,7 +54,8 @@ _SAID = re.compile(
 _WORD = re.compile(r"[^\W\d_²³⁴]\w*")
 _OPERATOR = re.compile(r"[-−+*/^·×²³(]")
 _SUM = re.compile(r"[-−+(]")
-_POWERS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_NO_LETTERS = dict.fromkeys(map(ord, "⁰¹²³⁴⁵⁶⁷⁸⁹¼½¾⅐⅑⅒⅓⅔⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"), " ")
+"""Powers and fractions, which are no letters of names."""
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan)(?=[^\W\d_])")
 
 
@@ -54,12 +66,16 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
     """
     text = written.text
     edits: list[Edit] = []
-    for match in islice(_LEGEND.finditer(text), MOST):
+    for match in (*islice(_LEGEND.finditer(text), MOST), *islice(_BRACKETED.finditer(text), MOST)):
         words = re.findall(r"[^\W\d_]+", match["words"])
         spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
         changed = any(x.lower() in CHANGING for x in words) or _is_rate(match["words"], match["new"])
-        if spoken and not changed and _is_new(match, text, exact) and is_formula(match["value"], taken):
-            edits.append((match.start("new"), match.start("value"), f"{match['new']}{match['of'] or ''} = "))
+        equals = match.re is _BRACKETED or bool(match["equals"])
+        said = is_formula(match["value"], taken) or (equals and _is_product(match["value"], taken))
+        if spoken and not changed and said and _is_new(match, text, exact):
+            of = match.groupdict().get("of") or ""
+            edits.append((match.start("new"), match.start("value"), f"{match['new']}{of} = "))
+            edits += [(match.end("value"), match.end(), ";")] if match.re is _BRACKETED else []
     for match in islice(_SAID.finditer(text), MOST):
         own = match["new"] not in _names(match["value"]) and _is_new(match, text, exact)
         if own and is_formula(match["value"], taken):
@@ -84,9 +100,15 @@ def _is_new(match: re.Match[str], text: str, exact: Callable[[str], bool]) -> bo
 
 def _names(value: str) -> list[str]:
     """The names in a formula, without functions."""
-    bare = value.translate(str.maketrans(_POWERS, " " * len(_POWERS)))
+    bare = value.translate(_NO_LETTERS)
     listed = (_FUNCTION.sub("", x) for x in _WORD.findall(bare))
     return [x for x in listed if function_of(x) is None]
+
+
+def _is_product(value: str, taken: Callable[[str], bool]) -> bool:
+    """Whether a value consists of several names of the system, without a sign between them: ½ m g l."""
+    names = _names(value)
+    return len(names) > 1 and all(map(taken, names)) and not UNITS.issuperset(names)
 
 
 def is_formula(value: str, taken: Callable[[str], bool]) -> bool:

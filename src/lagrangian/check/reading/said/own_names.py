@@ -4,6 +4,7 @@ x₁ statt x (Klotz), c statt k                        x₁ is x, c is k
 the gap is y (instead of x)                          y is x
 I write m for the puck's mass (m1), M for m2         m is m1, M is m2
 alpha = angle of the rotor (phi_m)                   alpha is phi_m
+- K ... stiffness of the flexure (kappa)             K is kappa
 theta = angle of the pulley (x = R*theta)            ; x = R*theta ;   a statement that remains
 
 A list is read item by item. Both sides must be names, the second one of the system. The letter taken may be one that
@@ -110,6 +111,8 @@ _LISTED = re.compile(rf"\([ ]?(?P<own>{_NAME}(?:[ ]?(?:,|and|und)[ ]{_NAME}){{1,
 """The names of the system in brackets behind a list that says for what the letters are."""
 _FOR_WHAT = re.compile(rf"{_NEW}[ \t\n]{{1,9}}(?:for|für)[ \t\n]{{1,9}}(?:the|an?|die|den|das|der)[ \t\n]")
 _SENTENCE = re.compile(r"[.;:!?](?=\s)|\n[ \t]*\n")
+_DOTTED = re.compile(rf"^(?P<new>[ \t]*+(?:[-*•–][ \t]++)?{_NAME}[ \t]*+)(?P<dots>\.{{2,9}}|…)(?=[ \t])", re.MULTILINE)
+"""A letter of a legend with the dots behind it, which stand for a colon."""
 _TIME = re.compile(r"(?<![\w\\])t[ ]?=[ ]?(?P<own>[^\W\d_]\w{0,15}+)(?![\w'’′(*/+^-])(?:,[ ]?)?")
 """The letter of time for a coordinate, t = theta, where nothing is differentiated by it."""
 _BY_TIME = re.compile(r"d[ ]?t(?!\w)|\([ ]?t[ ]?\)|(?<!\w)t[ ]?(?:>|>=|→)[ ]?0")
@@ -182,7 +185,8 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
     name of the system.
     """
     system = _System(model)
-    found = list(islice(_declared(text, system), MOST))
+    legend = _DOTTED.sub(lambda m: f"{m['new']}:".ljust(len(m.group())), text)
+    found = list(islice(_declared(legend, system), MOST))
     relations = list(islice(_relations(text, system), MOST))
     if not found and not relations:
         return DeclaredLetters({}, text)
@@ -313,8 +317,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             return None  # U = m e
         if any(map(system.find, _RATE.findall(before))):
             return None  # v = r', on the line above J w' = M
-        if any(x.lower() in CHANGING for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
-            return None  # B is the damper's force, b times speed
+        if any(x.lower() in CHANGING or function_of(x) for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
+            return None  # B is the damper's force, b times speed; z is the height, l sin θ
         if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):
             return None  # M is m L, g (m1 - m2)
         if not alone or _PREPOSITIONS.isdisjoint(before.lower().split()):
