@@ -36,6 +36,7 @@ from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
+from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
@@ -215,6 +216,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
+    tagless = with_own_length(tagless, names, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)
     said = _with_said_letters(varied, names, taken, own)
     of = [c.name for c in lines.model.coordinates]
