@@ -91,6 +91,13 @@ from lagrangian.read.letters import key
 
 _STAR_BELOW = re.compile(r"_(?:\\(?P<sign>ast|star)(?![A-Za-z])|\{\\(?P<within>ast|star)\})")
 """An index that is a star, in LaTeX: J_\\ast."""
+_SIGN_BELOW = re.compile(
+    r"(?<=[^\W\d_}])_(?:\{[ ]?(?P<within>[-+−*]|\\(?:perp|parallel|bot|\|))[ ]?\}"
+    r"|(?P<alone>[-+−](?![\w.(])|\*(?![\w*.(]))|(?P<sign>\\(?:perp|parallel|bot)(?![A-Za-z])|\\\|))"
+)
+"""An index that is a sign: m_+, m_{-}, v_\\perp, s_*."""
+_SIGNS = {"+": "plus", "-": "minus", "−": "minus", "*": "ast", "\\|": "parallel", "\\bot": "perp"}
+"""The names of such signs."""
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
 _ADDED_DEGREES = re.compile(r"(?P<sign>[-+−])[ ]?(?P<number>\d{1,3}(?:\.\d{1,4})?)[ ]?deg(?:rees?)?\b(?![ ]?/)")
@@ -118,7 +125,14 @@ def _copied(text: str) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
     plain = without_intervals(without_copying(without_proved(without_star_math(TracedText(text)))))
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
+    plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))
     return with_drawn_pieces(with_tall_brackets(plain))
+
+
+def _below(sign: str, *, latex: bool) -> str:
+    """An index that is a sign, as a word."""
+    word = _SIGNS.get(sign, sign.removeprefix("\\"))
+    return f"_{{{word}}}" if latex else f"_{word}"
 
 
 def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], latex: bool) -> TracedText:
