@@ -67,6 +67,7 @@ from lagrangian.check.reading.said.derivative_legends import (
 from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
+from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
@@ -173,6 +174,7 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
         return text
     moving = {key(c.name) for c in lines.model.coordinates}
     spelled = lines.model.symbols.__contains__
+    text = without_glosses_of_names(text, lines.model, taken)
     return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
 
 
