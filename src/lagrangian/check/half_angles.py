@@ -1,7 +1,7 @@
 """Roots that are sines or cosines of half an angle: √(2 + 2 sin θ) is 2 sin(θ/2 + π/4) where the system has the latter.
 
 As 1 − cos 2α = 2 sin² α and 1 + cos 2α = 2 cos² α, the root is that function where it is positive. It is taken so if it
-has one sign at all ordinary states.
+has one sign at all ordinary states and where the coordinates are 0: √(1 − cos θ) is no √2 sin(θ/2) for θ < 0.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ def half_angles(exprs: Iterable[sp.Expr], states: States, q: Sequence[sp.Expr]) 
             own = cast("sp.Expr", made(angle))
             square = 1 + (1 if made is sp.cos else -1) * cast("sp.Expr", sp.cos(bounded.expand(2 * angle)))
             of = bounded.atoms(square, sp.sin, sp.cos)
-            values = CompiledExpressions([own]).at(states)[0]
+            rest = cast("sp.Expr", own.xreplace(dict.fromkeys(q, sp.S.Zero)))
+            values = CompiledExpressions([own, rest]).at(states).flatten()
             if len(of) == 1 and ((values > 0).all() or (values < 0).all()):
                 sign = 1 if values[0] > 0 else -1
                 found[square] = HalfAngle(cast("sp.Expr", next(iter(of))), square, sign * sp.sqrt(2) * own)

@@ -50,6 +50,11 @@ _WORD = re.compile(r"\\[A-Za-z]+(?:_\{\w{1,20}\}|_\w)?|[^\W\d_](?:_\{\w{1,20}\}|
 _FUNCTION = re.compile(r"\\?(?:sin|cos|tan|sqrt)(?=[^\W\d_\\])")
 _COMMANDS = frozenset(["frac", "dfrac", "tfrac", "left", "right", "cdot", "bigl", "bigr", "Bigl", "Bigr", "pi", "π"])
 _RATE = re.compile("[\u0307\u0308'’′]|\\\\d?dot(?![A-Za-z])")
+_CALLED = re.compile(r"[\w}][ \t]*+&?[ \t]*+=[ \t]*+&?[ \t]*\Z")
+"""What stands before a slope that has a name."""
+LONGEST = 60
+"""How far from a slope or a letter is looked."""
+_ALONE = re.compile(r"L(?![\d_'’′(])")
 MOST = 40
 """The most places where L is given a value or differentiated."""
 
@@ -70,6 +75,9 @@ def with_own_length(text: TracedText, names: Names, taken: Callable[[str], bool]
     stated = list(islice(_STATED.finditer(written), MOST))
     if not _is_length(written, names, stated, [*slopes.values(), *twice]):
         return text
+    named = any(_CALLED.search(written, max(0, m.start() - LONGEST), m.start()) for m in slopes.values())
+    if not (stated or defined or named or len(slopes) > 1):
+        return text  # of an energy, perhaps, that lost its mass
     length, slope, second = (f"L_{{{x}}}" if latex else f"L_{x}" for x in ("len", "slope", "slopes"))
     edits: list[Edit] = [(*m.span(), apart_from(written, m, second)) for m in twice]
     for ((start, end), of), match in slopes.items():
@@ -77,8 +85,8 @@ def with_own_length(text: TracedText, names: Names, taken: Callable[[str], bool]
         edits.append((start, end, apart_from(written, match, partial if stated or defined else slope)))
     edits = apart(edits)
     if defined is None:
-        alone = list(_found(r"(?<![^\W\d])(?<!\\)L(?!\w)", written))
-        edits += [(*m.span(), length) for m in alone if not any(a <= m.start() < b for a, b, _ in edits)]
+        alone = [m.start() for m in re.finditer(_ALONE, written) if _is_factor(m, written, taken)]
+        edits += [(at, at + 1, length) for at in alone if not any(a <= at < b for a, b, _ in edits)]
     else:
         names.own["Llen"] = ("L_len", defined.symbol)
     names.notes.setdefault("L was read as a length, not as the Lagrangian.")
@@ -124,8 +132,8 @@ def _lengths(names: Names) -> frozenset[object]:
         else:
             listed = list(vars(element).values())
         for x in listed:
-            found = x.free_symbols if isinstance(x, (sp.Basic, MatrixBase)) else set[object]()
-            sizes |= set(found)
+            for y in x if isinstance(x, (tuple, list)) else (x,):
+                sizes |= set(y.free_symbols) if isinstance(y, (sp.Basic, MatrixBase)) else set()
     lengths = {p.symbol for p in names.model.parameters} - sizes
     moving = {c.symbol for c in names.model.coordinates}
     defined = {
@@ -147,6 +155,17 @@ def _meant(word: str, names: Names) -> object:
     if len(found) == 1 and not dots:
         return names.scope[found[0]]
     return _LENGTH if bare == "L" else None
+
+
+def _is_factor(match: re.Match[str], written: str, taken: Callable[[str], bool]) -> bool:
+    """Whether an L stands alone, or as a factor beside letters of the system: r L in LaTeX, and no word or command."""
+    start, end = match.start(), match.end()
+    while start and written[start - 1].isalpha() and match.start() - start < LONGEST:
+        start -= 1
+    while end < len(written) and written[end].isalpha() and end - match.end() < LONGEST:
+        end += 1
+    run = written[start:end]
+    return written[start - 1 : start] != "\\" and all(x == "L" or (taken(x) and not taken(run)) for x in run)
 
 
 def _second(by: str) -> str:
