@@ -22,7 +22,7 @@ def test_a_root_is_the_function_of_half_the_angle() -> None:
 )
 def test_no_other_root_is(of: str) -> None:
     (theta,) = hatch("s").coordinates
-    root = sp.sqrt(sp.sympify(of, locals={"theta": theta}))
+    root = sp.sqrt(sp.sympify(of).xreplace({sp.Symbol("theta"): theta}))
     assert truth_of(hatch("s")).expand(root) == root
 
 

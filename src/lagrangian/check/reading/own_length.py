@@ -89,7 +89,8 @@ def with_own_length(text: TracedText, names: Names, taken: Callable[[str], bool]
         edits += [(at, at + 1, length) for at in alone if not any(a <= at < b for a, b, _ in edits)]
     else:
         names.own["Llen"] = ("L_len", defined.symbol)
-    names.notes.setdefault("L was read as a length, not as the Lagrangian.")
+    if edits:
+        names.notes.setdefault("L was read as a length, not as the Lagrangian.")
     return text.edited(edits)
 
 
