@@ -37,7 +37,7 @@ _OTHER = re.compile(
     r"|\b(?:diff|[Dd]erivative|jacobian|symbols)[ ]?\(|\b(?:syms|import)\b"
 )
 """The Lagrangian by its usual names, and what programs have, which are carried out."""
-_OF_L = re.compile(rf"(?<![^\W\d])(?<!\\)(?:{_D}){{1}}(?:{_TWO})?L(?!\w)")
+_OF_L = re.compile(rf"(?<![^\W\d])(?<!\\){_D}(?:{_TWO})?L(?!\w)")
 """A differential of L."""
 _BY_TIME = re.compile(rf"[ ]?\}}?[ ]?[/{{][ ]?{_D}t(?!\w)")
 _VALUE = re.compile(r"[ \t]*[)}]?[ \t]*&?[ \t]*=(?![=>])(?P<value>[^,;\n&$=]{1,200})")
