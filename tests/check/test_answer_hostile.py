@@ -130,7 +130,7 @@ REFUSED = [
     (r"\ddot\theta^2^3 = 0", "E701", 1, 14, "exponents"),
     (r"\begin{cases}1\end{cases} = \theta", "E701", 1, 1, "environment"),
     (r"m 2 3 \ddot\theta = 0", "E701", 1, 5, "next to each other"),
-    (r"m\theta_{+} = 0", "E701", 1, 8, "subscript"),
+    (r"m\theta_{/} = 0", "E701", 1, 8, "subscript"),
     (r"\frac{\partial m}{\partial \dot\theta} = 0", "E701", 1, 1, "energy"),
     (r"\begin{bmatrix}1&2\\3\end{bmatrix}\ddot\theta = 0", "E701", 1, 1, "entries"),
 ]

@@ -183,3 +183,50 @@ def test_a_kilogram_is_no_product_of_a_stiffness_and_gravity() -> None:
 def test_a_legend_without_a_formula_says_no_value(legend: str) -> None:
     assert is_right(f"m x'' + b x' + k x = F\n{legend}", mass())
     assert not is_right(f"m x'' + b x' - k x = F\n{legend}", mass())
+
+
+def test_a_unit_in_brackets_with_a_power_is_no_factor() -> None:
+    row = "A = m l² n², D = A²\nD φ'' + A (b φ' + k φ + m g l n sin(n φ)) = A M\n"
+    for unit in ("(kg m²)²", "(kg·m^2)^2", "(N m s²)²"):
+        verdict = geared().check(f"{row}Numbers: A = 4.5 kg m², D = 20.25 {unit}.")
+        assert verdict.right, str(verdict)
+        assert all(f.status.right for f in verdict.findings), str(verdict)
+        assert not is_right(f"{row.replace('+ k', '- k')}Numbers: D = 20.25 {unit}.", geared())
+
+
+CRANK = """
+name = "crank"
+[coordinates]
+alpha = "angle of the crank"
+[parameters]
+J = "2 kg*m^2"
+c = "3 N*m*s"
+r = "0.5 m"
+k = "7 N/m"
+n = "3"
+[inputs]
+Q = "N*m"
+[[kinetic]]
+name = "crank"
+value = "J*alpha'^2/2"
+[[spring]]
+k = "k"
+deflection = "r*alpha"
+[[damper]]
+b = "c"
+deflection = "n*alpha"
+[[torque]]
+value = "Q"
+on = "alpha"
+"""
+
+
+def test_a_word_of_the_description_in_brackets_is_no_product() -> None:
+    crank = lg.loads(CRANK).derive()
+    answer = "so a = alpha (crank) and everything else like on the sheet\nJ a'' + c n^2 a' + k r^2 a = Q"
+    assert crank.check(answer).right
+    assert not crank.check(answer.replace("n^2", "n")).right
+    assert crank.check(answer.replace("a = alpha (crank) and", "a = alpha (crank),")).right
+    product = "J alpha'' + c n^2 alpha' = Q - F\nF = alpha (k r^2)"
+    assert crank.check(product).right
+    assert not crank.check(product.replace("k r^2", "k r")).right

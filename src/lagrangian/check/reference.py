@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.branches import Branch, natural, sides_of
+from lagrangian.check.half_angles import HalfAngle, half_angles, with_half_angles
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.sampling import DIGITS, Array, CompiledExpressions, States
@@ -48,7 +49,9 @@ class Reference:
         self.states = States(self.model, 2 * self.n + 6)
         self.region: sp.Expr | None = None
         self.sides: tuple[Branch, ...] = ()
+        self.halves: tuple[HalfAngle, ...] = ()
         self.sides = self._sides()
+        self.halves = self._halves()
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
         self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
         self.rows = tuple(map(self.expand, self._differences()))
@@ -90,6 +93,11 @@ class Reference:
         M = sp.Matrix(d.mass_matrix.applyfunc(self.expand))
         return sides_of(exprs, M, self.states, list(d.coordinates))
 
+    def _halves(self) -> tuple[HalfAngle, ...]:
+        d = self.derivation
+        exprs = [d.T, d.V, *self._differences(), *(x.symbol for x in self.model.definitions)]
+        return half_angles([self.expand(x) for x in exprs], self.states, list(d.coordinates))
+
     def within(self, region: sp.Expr | None) -> Reference:
         """The same reference, with distant states restricted to those where ``region`` has the sign that it has at
         ordinary states."""
@@ -122,14 +130,15 @@ class Reference:
     def expand(self, expr: sp.Expr) -> sp.Expr:
         """An expression with all definitions of the model written out and with values substituted for parameters.
 
-        √(p²) becomes p for a distance p of the model, see `branches`.
+        √(p²) becomes p for a distance p of the model, see `branches`, and √(1 + cos θ) √2 cos(θ/2), see `half_angles`.
         """
         whole = self.model.expand(sp.sympify(expr), constants=True)
         return self.put(whole)
 
     def put(self, expr: sp.Expr) -> sp.Expr:
         """The same for an expression without definitions."""
-        return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
+        put = natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
+        return with_half_angles(put, self.halves)
 
     def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Reference:
         """The same reference with values substituted for parameters too; the last few are kept."""

@@ -143,8 +143,10 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...])
             continue
         found, sizes = _right_sums(own, partial(_right_lines, truth))
         found, sizes = _divided(own, _right_lines(truth)) if divided and not sizes else (found, sizes)
-        if not sizes and typed and not forces:
-            found, sizes = within_rounding(form, typed, _right_lines(truth)) or (found, sizes)
+        surds = any(not isinstance(x, sp.Rational) for x in own.values())  # of cos(θ/2 + π/4), multiplied out
+        if not sizes and (typed or surds) and not forces:
+            whole = form if divided else _with_sums_apart(expr)
+            found, sizes = within_rounding(whole, typed, _right_lines(truth)) or (found, sizes)
         if sizes:
             return sp.Add(*(k * x for k, x in (found | forces).items())), frozenset(sizes)
     return expr, frozenset()
@@ -241,6 +243,7 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
         for form in _forms(expr):
             own = _coefficients(form)
             found.update(own)
+            found.update(_amplitudes(form))
             few = [(a, x) for a, x in own.items() if bounded.operations(a) <= LONGEST_NUMBER][:MAX_COEFFICIENTS]
             found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
     found.update({value: float(value) for value in truth.values.values() if value.is_number})
@@ -270,9 +273,14 @@ def _forms(expr: sp.Expr) -> Iterator[sp.Expr]:
     if bounded.operations(expr) > LONGEST:
         return
     yield bounded.expand(expr)
+    if (apart := _with_sums_apart(expr)) is not expr:
+        yield bounded.expand(apart)
+
+
+def _with_sums_apart(expr: sp.Expr) -> sp.Expr:
+    """An expression with the sines and cosines of sums expanded; itself if it has none."""
     sums = {f: sp.expand_trig(f) for f in expr.atoms(sp.sin, sp.cos) if f.args[0].is_Add}
-    if sums:
-        yield bounded.expand(cast("sp.Expr", expr.xreplace(sums)))
+    return cast("sp.Expr", expr.xreplace(sums)) if sums else expr
 
 
 def _sums(expr: sp.Expr) -> dict[sp.Expr, sp.Expr]:
@@ -297,6 +305,19 @@ def _is_finite(x: sp.Expr) -> bool:
 def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
     """The numbers by which what moves is multiplied in an expanded expression."""
     return {x: _size(x) for x in _sums(expr).values() if _is_finite(x)}
+
+
+def _amplitudes(expr: sp.Expr) -> dict[sp.Expr, float]:
+    """The numbers c of c cos(α + φ) that stand expanded as a cos α + b sin α, with a and b that are no fractions."""
+    sums = {k: x for k, x in _sums(expr).items() if _is_finite(x) and not isinstance(x, sp.Rational)}
+    found: dict[sp.Expr, float] = {}
+    for moving, a in list(sums.items())[:MAX_COEFFICIENTS]:
+        for f in sp.Mul.make_args(moving):
+            b = sums.get(moving / f * sp.sin(f.args[0])) if isinstance(f, sp.cos) else None
+            if b is not None and bounded.operations(a) + bounded.operations(b) <= LONGEST_NUMBER:
+                c = cast("sp.Expr", sp.sqrt(bounded.expand(a**2 + b**2)))
+                found[c] = _size(c)
+    return found
 
 
 @lru_cache(maxsize=32)

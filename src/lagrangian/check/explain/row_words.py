@@ -13,7 +13,7 @@ from lagrangian.check.rows import Kind, ReferenceRow, RowComparison
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.page.formula import Terms, Text, text
 
-_DERIVES = re.compile(r"∂|\\partial|\bd ?[TVLℒ]\*?/d|\\mathcal ?\{?L")
+_DERIVES = re.compile(r"(?:∂|\\partial[ ]?|\bd ?)(?:[TVLUKED]\*?(?![\w'])|[ℒ(]|\\(?:mathcal|mathscr|cal)(?![A-Za-z]))")
 """In a line that says what a derivative of an energy is."""
 _LETTER = re.compile(r"[^\W\d_]")
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.certain_first import with_certain_terms
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
@@ -44,6 +45,8 @@ OF_LETTERS = (
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 NOT = ", not "
 """What stands between what is right and what is written."""
+BESIDE = (NOT, " is not ", " should be ", " stands where ")
+"""What stands between what is written and what belongs there, in either order."""
 EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
 _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
@@ -117,6 +120,8 @@ def _only_follows(mistake: Mistake, verdict: Verdict) -> bool:
 def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether the lines of an answer speak against a mistake."""
     said = str(mistake.what)
+    if _says_nothing(mistake):
+        return True
     if (blamed := _BLAMES.match(said)) is not None:
         own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
         return bool(own) and all(f.status.right for f in own)
@@ -131,6 +136,13 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     ):
         return True  # which of several equal bodies moves otherwise than the others is written nowhere
     return _is_of_right_quantity(said, verdict) or (is_of_what_is_there(mistake) and _only_lacks(mistake, verdict))
+
+
+def _says_nothing(mistake: Mistake) -> bool:
+    """Whether the same is written as belongs there: 14400 sin θ cos θ should be 14400 sin θ cos θ."""
+    parts = mistake.what.parts
+    pairs = ((a, b) for a, x, b in zip(parts, parts[1:], parts[2:], strict=False) if x in BESIDE)
+    return any(isinstance(a, sp.Expr) and isinstance(b, sp.Expr) and bounded.expand(a - b) == 0 for a, b in pairs)
 
 
 def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:

@@ -245,7 +245,7 @@ def _primed(name: str, of: str, *, alone: bool) -> list[str]:
 
 def differentiated(name: str, of: str) -> list[str]:
     """The patterns of a function of a coordinate that is differentiated by it, as a fraction or by an operator."""
-    d, by = r"(?:\\mathrm\s?\{d\}|\\partial|d|∂)\s?", rf"{_letter(of)}(?![\w'’′\u0307(])"
+    d, by = r"(?:\\mathrm\s?\{d\}|\\mathrm\s{1,3}d|\\partial|d|∂)\s?", rf"{_letter(of)}(?![\w'’′\u0307(])"
     applied = rf"{_spelled(name)}\s?{_argument(of)}"
     whole, begins = rf"(?:{applied}|{_spelled(name)})", r"(?<![^\W\d])(?<!\\)"
     inner = rf"(?:{applied}|(?:\\left)?[(\[]\s?{whole}\s?(?:\\right)?[)\]]|{_spelled(name)}(?=\s{{0,3}}&?\s{{0,3}}=))"

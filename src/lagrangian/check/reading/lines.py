@@ -16,6 +16,7 @@ from lagrangian import bounded
 from lagrangian.check.reading.amounts import amounts_to, parameter_given, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.chained_names import given_by_chains
+from lagrangian.check.reading.circles import first_without_circles
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
@@ -153,10 +154,9 @@ class Lines:
         alone = named_accelerations({i: (key(str(x.token)), turned[i][1][1:]) for i, x in defining if not x.order})
         self.subjects.accelerations = set(alone.values())
         last = {i: (x.order > 0, x.right, i not in alone, i in ends, i) for i, x in defining}
-        for i, subject in sorted(defining, key=lambda x: last[x[0]]):
-            _, same = self.subjects.sharing(subject, turned[i][1])
-            for token in (subject.token, *same):
-                self._waiting.setdefault(key(undotted(str(token))[0]), i)  # omega = theta' before omega' = …
+        ordered = sorted(defining, key=lambda x: last[x[0]])  # omega = theta' before omega' = …
+        shared = ((x, i) for i, s in ordered for x in (s.token, *self.subjects.sharing(s, turned[i][1])[1]))
+        self._waiting |= first_without_circles(shared, lambda i: turned[i][1][1:])
         self._waiting |= {key(str(x.token)): i for i, x in enumerate(first) if x and self.subjects.is_letter(x)}
         named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}

@@ -37,6 +37,7 @@ from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.own_derivatives import with_own_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
+from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
@@ -67,6 +68,7 @@ from lagrangian.check.reading.said.derivative_legends import (
 from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
+from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
@@ -95,6 +97,13 @@ from lagrangian.read.letters import key
 
 _STAR_BELOW = re.compile(r"_(?:\\(?P<sign>ast|star)(?![A-Za-z])|\{\\(?P<within>ast|star)\})")
 """An index that is a star, in LaTeX: J_\\ast."""
+_SIGN_BELOW = re.compile(
+    r"(?<=[^\W\d_}])_(?:\{[ ]?(?P<within>[-+−*]|\\(?:perp|parallel|bot|\|))[ ]?\}"
+    r"|(?P<alone>[-+−](?![\w.(])|\*(?![\w*.(]))|(?P<sign>\\(?:perp|parallel|bot)(?![A-Za-z])|\\\|))"
+)
+"""An index that is a sign: m_+, m_{-}, v_\\perp, s_*."""
+_SIGNS = {"+": "plus", "-": "minus", "−": "minus", "*": "ast", "\\|": "parallel", "\\bot": "perp"}
+"""The names of such signs."""
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
 _ADDED_DEGREES = re.compile(r"(?P<sign>[-+−])[ ]?(?P<number>\d{1,3}(?:\.\d{1,4})?)[ ]?deg(?:rees?)?\b(?![ ]?/)")
@@ -124,7 +133,14 @@ def _copied(text: str) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
     plain = without_intervals(without_copying(without_proved(without_star_math(TracedText(text)))))
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
+    plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))
     return with_drawn_pieces(with_tall_brackets(plain))
+
+
+def _below(sign: str, *, latex: bool) -> str:
+    """An index that is a sign, as a word."""
+    word = _SIGNS.get(sign, sign.removeprefix("\\"))
+    return f"_{{{word}}}" if latex else f"_{word}"
 
 
 def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], latex: bool) -> TracedText:
@@ -167,6 +183,7 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
         return text
     moving = {key(c.name) for c in lines.model.coordinates}
     spelled = lines.model.symbols.__contains__
+    text = without_glosses_of_names(text, lines.model, taken)
     return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
 
 
@@ -226,6 +243,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
+    tagless = with_own_length(tagless, names, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)
     said = _with_said_letters(varied, names, taken, own)
     of = [c.name for c in lines.model.coordinates]

@@ -34,11 +34,18 @@ _INERTIA = re.compile(
 )
 """A moment of inertia in an equation, which is no product: (19.8 kg m² + …) θ''."""
 
+_RAISED = re.compile(
+    rf"[=≈][ ]?[-−]?{_NUMBER}(?P<unit>[ ]?(?:[·*]|\\,)?[ ]?\((?=[^()]{{0,12}}(?:kg|N))"
+    r"(?:(?:kg|N|m|s|rad)(?:²|³|\^\d)?(?:[ ·*/]|\\,)?){2,6}\)(?:²|³|\^\{?\d\}?))"
+    r"(?=[ \t]*(?:[.,;]?\s|[.,;$]?\Z|[$]|\\[\])]))"
+)
+"""A product of units in brackets, with a power, at the end of what is said of a number: Δ = 0.19 (kg m²)²."""
+
 
 def without_units_of_numbers(written: TracedText) -> TracedText:
-    """Return an answer without the units behind sums of numbers and behind moments of inertia in equations, whose
-    letters may be names of the system: kg is no k·g."""
-    found = (m.span("unit") for form in (_SUM, _INERTIA) for m in form.finditer(written.text))
+    """Return an answer without the units behind sums of numbers, behind moments of inertia in equations and, with a
+    power, behind numbers, whose letters may be names of the system: kg is no k·g."""
+    found = (m.span("unit") for form in (_SUM, _INERTIA, _RAISED) for m in form.finditer(written.text))
     return written.edited(apart((start, end, "") for start, end in found))
 
 

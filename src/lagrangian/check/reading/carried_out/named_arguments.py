@@ -2,13 +2,14 @@
 
 accelerations(y, th, yd, thd)      [ydd, thdd], one for each; fewer where constraints are put in, by their names
 acc(theta, omega)                  theta'' alone; letters that mean nothing else are the rates, in their order
+acc(alpha, r, da, dr)              [alpha'', r'']; da can only be the rate of alpha
 pendulum(theta, omega)             [omega, theta''], the rates of a state
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
@@ -16,6 +17,7 @@ import sympy as sp
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.layouts import ACCELERATES
 from lagrangian.check.reading.carried_out.values import TIME, OwnFunction, State
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.read.letters import GREEK, key
@@ -68,12 +70,17 @@ class NamedArguments:
         meant = {x: next(iter(self.scope.meanings(x)[0])) for x in named}
         left = [x for x in named if meant[x] not in done]
         free = [x for x in f.arguments if x not in named and x not in spelled and x != TIME.name]
-        free = [x for x in free if not self.scope.meanings(x)[0] and (_TURNS.fullmatch(x) or _MOVES.fullmatch(x))]
+        free = [x for x in free if not self.scope.meanings(x)[0]]
+        begun = _begun(free, {x: meant[x] for x in left})
+        left = [x for x in left if x not in begun.values()]
+        if begun and not left:
+            return begun
+        free = [x for x in free if x not in begun and (_TURNS.fullmatch(x) or _MOVES.fullmatch(x))]
         turning, moving = ([x for x in free if form.fullmatch(x)] for form in (_TURNS, _MOVES))
         angles, lengths = ([x for x in left if _is_angle(meant[x]) is turns] for turns in (True, False))
         if len(turning) == len(angles) and len(moving) == len(lengths):
-            return dict(zip((*turning, *moving), (*angles, *lengths), strict=True))
-        return dict(zip(free, left, strict=True)) if len(free) == len(left) else {}
+            return begun | dict(zip((*turning, *moving), (*angles, *lengths), strict=True))
+        return begun | dict(zip(free, left, strict=True)) if len(free) == len(left) else {}
 
     def _says(self, f: OwnFunction, rates: Sequence[sp.Expr]) -> bool:
         """Whether a function says that it returns accelerations: by its name, in its words, or by solving for them."""
@@ -82,6 +89,18 @@ class NamedArguments:
             words = getattr(getattr(f.body[0], "value", None), "value", "")  # of its docstring
         said = any(map(ACCELERATES.search, (f.name, f.out or ""))) or bool(_SAID.search(str(words)))
         return said or any(x.free_symbols & self.run.solved.keys() for x in rates)
+
+
+def _begun(free: Sequence[str], left: Mapping[str, str]) -> dict[str, str]:
+    """The names that are rates of the letters with which only one of the coordinates that are left begins: da of
+    alpha."""
+    found: dict[str, list[str]] = {}
+    for x in free:
+        stems = [key(stem) for order, stem in spelled_rates(x) if order == 1 and stem]
+        begins = [q for q, name in left.items() if any(key(name).startswith(stem) for stem in stems)]
+        if len(begins) == 1:
+            found.setdefault(begins[0], []).append(x)
+    return {listed[0]: q for q, listed in found.items() if len(listed) == 1}
 
 
 def _is_angle(coordinate: str) -> bool:
