@@ -2,9 +2,10 @@
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
 from lagrangian.check.reading.file_text import decode_answer, read_text
+from lagrangian.check.reading.limits import MAX_ANSWER
 from lagrangian.check.reading.own_slopes import OwnCoordinates, named, replaced_by
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_placeholder
-from lagrangian.check.reading.read import MAX_ANSWER, parse_answer
+from lagrangian.check.reading.read import parse_answer
 from lagrangian.check.reading.stated import of_coordinate
 
 __all__ = [

@@ -22,6 +22,7 @@ from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.latex.variants import with_variants_apart
+from lagrangian.check.reading.limits import MAX_ANSWER, check_length, check_number
 from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
@@ -31,7 +32,7 @@ from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
-from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.plain.rows import AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.plain.tokens import with_points
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
 from lagrangian.check.reading.programs.marks import (
@@ -68,9 +69,6 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
-
-MAX_ANSWER = 60_000
-"""The largest number of characters of an answer."""
 
 LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
@@ -232,7 +230,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
     source = plain.source(typed, text)
-    _check_length(source)
+    check_length(source)
     written = written_out(source) if latex else None
     _set_dependents(lines.names, text, written)
     words = _words(lines, text)
@@ -240,7 +238,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
-    _check_number(rows, source, written)
+    check_number(rows, source, written)
     parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     if reading == LIKELIEST:
@@ -250,7 +248,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         made = lines.read(statements, errors)
     finally:
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
-    _check_number(rows if _states_anything(made, lines) else [], source, written)
+    check_number(rows if _states_anything(made, lines) else [], source, written)
     aside += told_remarks(remarks.lines) if reading.bare else []
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     notes = tuple(once((*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)))
@@ -329,25 +327,6 @@ def _rows(
         outside = _beside(latex, words)
         rows = sorted([*rows, *outside], key=lambda row: row.start)
     return without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0])), outside
-
-
-def _check_length(source: Source) -> None:
-    """Raise `ParseError` if an answer whose notation is written out is too long."""
-    if len(source.text) > MAX_ANSWER:
-        longest = f"written out, the answer has more than {MAX_ANSWER} characters"
-        raise source.error(longest, 0, fix="give the equations alone", code="E703")
-
-
-def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLatex | None) -> None:
-    """Raise `ParseError` if an answer has no statements, or too many."""
-    if not rows:
-        raise source.error(
-            "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
-        )
-    if len(rows) > MAX_STATEMENTS:
-        at = rows[MAX_STATEMENTS].start if latex is None else latex.origin(rows[MAX_STATEMENTS].start)
-        what = f"more than {MAX_STATEMENTS} statements"
-        raise source.error(what, at, fix="give the answer in several parts", code="E703")
 
 
 def _states_anything(made: Sequence[AnswerLine], lines: Lines) -> bool:

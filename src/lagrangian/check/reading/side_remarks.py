@@ -26,7 +26,7 @@ from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.words_beside import REST, words_beside
 from lagrangian.model import Model
-from lagrangian.read.letters import undotted
+from lagrangian.read.letters import key, undotted
 from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
 

@@ -1,9 +1,7 @@
 """Finds what an answer says, in words, about its own letters for the names of the system.
 
 x₁ statt x (Klotz), c statt k                        x₁ is x, c is k
-the gap is y (instead of x)                          y is x
 I write m for the puck's mass (m1), M for m2         m is m1, M is m2
-alpha = angle of the rotor (phi_m)                   alpha is phi_m
 - K ... stiffness of the flexure (kappa)             K is kappa
 theta = angle of the pulley (x = R*theta)            ; x = R*theta ;   a statement that remains
 
@@ -313,10 +311,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             continue
         if any(x[:1].isdigit() or x.lower() in CHANGING or function_of(x) for x in before.split()):
             return None  # p stands for sin theta, for 2 m
-        if before.split() and system.find(_bare(before.split()[-1])):
-            return None  # U = m e
-        if any(map(system.find, _RATE.findall(before))):
-            return None  # v = r', on the line above J w' = M
+        if any(map(system.find, (*map(_bare, before.split()[-1:]), *_RATE.findall(before)))):
+            return None  # U = m e; v = r', on the line above J w' = M
         if any(x.lower() in CHANGING or function_of(x) for x in re.findall(r"[^\W\d_]+", rest[match.end() :])):
             return None  # B is the damper's force, b times speed; z is the height, l sin θ
         if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):
