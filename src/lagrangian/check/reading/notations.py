@@ -207,11 +207,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
-    if not LATEX.search(text):
-        copied = without_anonymous_functions(copied, taken)
-        copied = with_definitions_apart(without_leading_words(copied, taken), taken)
-        copied = with_factors_named_behind(copied, taken)
+    copied = _copied(text) if LATEX.search(text) else _with_factors_apart(_copied(text), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
@@ -259,6 +255,12 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _with_factors_apart(copied: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """A plain text without functions that have no name and leading words, with definitions and named factors apart."""
+    opened = without_leading_words(without_anonymous_functions(copied, taken), taken)
+    return with_factors_named_behind(with_definitions_apart(opened, taken), taken)
 
 
 def _in_latex(said: TracedText) -> TracedText:
