@@ -90,12 +90,12 @@ def is_rate(truth: Reference, expr: sp.Expr) -> bool:
 
 
 def stands_still(truth: Reference, expr: sp.Expr, written: str) -> bool:
-    """Whether a line only says that rates and accelerations are all 0: θ″ = θ′ = 0."""
+    """Whether a line only says that several rates and accelerations are all 0: θ″ = θ′ = 0."""
     rates = {x for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
     held = expr.atoms(sp.Derivative)
-    rest = expr.xreplace(dict.fromkeys(held, sp.S.Zero))
-    letters = expr.xreplace({x: sp.Dummy() for x in held}).atoms(AppliedUndef)
-    return bool(held) and held <= rates and rest == 0 and not letters and ENDS_IN_ZERO.search(written) is not None
+    factors = [bounded.diff(expr, x) for x in held]
+    alone = all(x.is_number for x in factors) and expr.xreplace(dict.fromkeys(held, sp.S.Zero)) == 0
+    return len(held) > 1 and held <= rates and alone and ENDS_IN_ZERO.search(written) is not None
 
 
 def relates_freedoms(truth: Reference, expr: sp.Expr) -> bool:
