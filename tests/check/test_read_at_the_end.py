@@ -82,3 +82,21 @@ def test_a_moment_called_q_that_balances_share_is_no_generalized_force(motor: st
 def test_the_generalized_force_stays_one() -> None:
     assert press().check("Q = n tau - c phi'\n(J + n^2 Jm) phi'' = Q").right
     assert not press().check("Q = n tau + c phi'\n(J + n^2 Jm) phi'' = Q").right
+
+
+@cache
+def slider() -> lg.Derivation:
+    """A mass whose names spell a word: m, a, s."""
+    s = lg.System("slider")
+    x = s.coordinate("s")
+    m, a, M = s.parameters("m a M")
+    s.particle(m + M, at=s.point("P", (x, 0)), name="slider")
+    s.spring(a, deflection=x)
+    return s.derive()
+
+
+@pytest.mark.parametrize("said", ["(M = mass of the load)", "M = mass of one load, m = mass of the slider"])
+def test_a_mass_of_something_is_no_product(said: str) -> None:
+    assert slider().check(f"Task 5, result only {said}\n(m + M) s'' + a s = 0").right
+    assert not slider().check(f"Task 5, result only {said}\n(m + M) s'' + 2 a s = 0").right
+    assert not slider().check("M = m a s s\n(m + M) s'' + a s = 0").right

@@ -29,10 +29,11 @@ _COMPOUND = re.compile(
 )
 """Two words beside each other: needle bar."""
 _SUM_OF = re.compile(
-    r"(?<![\\\w])(?P<word>sum|total|rate|somme|summe)(?=[ \t]+(?:of|de[rs]?|aller|all)[ \t]+[^\W\d_]{3,24})",
+    r"(?<![\\\w])(?P<word>sum|total|rate|somme|summe|mass|masse|length|damping|angle|slope|arm|radius|lever|moment)"
+    r"(?=[ \t]+(?:of|de[rsm]?|du|aller|all)[ \t]+[^\W\d_]{3,24})",
     re.IGNORECASE,
 )
-"""What words add up, even behind an equals sign: dD/dt = sum of moments."""
+"""What words add up, even behind an equals sign, and what a letter is: dD/dt = sum of moments; mo = mass of one oar."""
 _SHORT = 3
 """The letters of a word that is no noun if it stands in mathematics anywhere."""
 _FUNCTION = r"(?:sin|cos|tan|sqrt|exp)"
