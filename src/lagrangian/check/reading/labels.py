@@ -85,8 +85,10 @@ _OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{DIRECTIONS})\b\.?[ \t]++(?=[
 _FAR = re.compile(r"\s*+(?P<said>[^\W\d_][\w.#’-]{1,24}(?:[ ][\w.#’-]{1,24}){0,3}+)(?:[ \t]{2,}|\t)(?=[^\s=+*/^])")
 """Words or a word with a number, far from the equation behind them: load1  m1*x1'' = …"""
 _ONE_OF_SUM = rf"(?:\w{{1,9}}\.?\s?[·*]?\s?)?\(\s*(?:{_NUMBER}|[IVX]{{1,4}}|[ivx]{{1,5}}|[A-Za-z]\d?['′*]?)\s*\)"
-_SUM_OF_NUMBERS = re.compile(rf"\s*+{_ONE_OF_SUM}(?:\s?[-+−]\s?{_ONE_OF_SUM}){{0,8}}\s?:(?!=)(?:(?<=\d\):)|(?=\s))")
-"""Which equations were added: (1) - r·(2): …, (I)+(II): …"""
+_SUM_OF_NUMBERS = re.compile(
+    rf"\s*+(?:[-+−]\s?)?{_ONE_OF_SUM}(?:\s?[-+−]\s?{_ONE_OF_SUM}){{0,8}}\s?:(?!=)(?:(?<=\d\):)|(?=\s))"
+)
+"""Which equations were added: (1) - r·(2): …, (I)+(II): …; the first number may be blank already."""
 _ENERGY = re.compile(r"\s*+(?:[-*•+]\s+)?(?P<name>T\*?|[VUD]|E_?(?:kin|pot))\s?(?P<colon>:)(?!=)(?=[^=\n]+\Z)")
 """An energy without an equals sign: T: 1/2 m v^2."""
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"

@@ -66,6 +66,7 @@ from lagrangian.check.reading.said.derivative_legends import (
     with_raised_dots,
 )
 from lagrangian.check.reading.said.deviations import with_deviations
+from lagrangian.check.reading.said.elements_behind import without_elements_behind
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
 from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
@@ -86,6 +87,7 @@ from lagrangian.check.reading.said.stands_for import (
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
+from lagrangian.check.reading.said.turned_by import with_turned_bodies
 from lagrangian.check.reading.said.virtual_velocities import with_virtual_velocities
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
@@ -207,7 +209,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text) if LATEX.search(text) else _with_factors_apart(_copied(text), taken)
+    copied = _copied(text)
+    if not LATEX.search(text):
+        copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
@@ -241,7 +245,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
     tagless = with_own_length(tagless, names, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)
-    said = _with_said_letters(varied, names, taken, own)
+    said = _with_said_letters(with_turned_bodies(varied, lines.model, taken), names, taken, own)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
         said = _in_latex(with_named_formulas(said, taken))

@@ -1,4 +1,5 @@
-"""Derivatives of what an answer states by a coordinate of its own, dP/dα after α = π − θ: written ∂P/∂α.
+"""Derivatives of what an answer states by a coordinate of its own, dP/dα after α = π − θ, or dx/dα after x = l cos α:
+written ∂P/∂α.
 
 Where the system has a d, dP/dα would be d P/(d α), which nobody writes.
 """
@@ -35,6 +36,8 @@ def with_own_derivatives(
         stated = re.search(_STATED.format(re.escape(by)), text.text)
         own = stated is not None and not moves(stated["value"])
         own = own and any(map(coordinate, _LETTERS.findall(stated["value"] if stated else "")))
-        if own and (taken(of) or re.search(_STATED.format(re.escape(of)), text.text) is not None):
+        value = re.search(_STATED.format(re.escape(of)), text.text)
+        made = value is not None and by in _LETTERS.findall(value["value"])  # x = L cos α: dx/dα
+        if made or (own and (taken(of) or value is not None)):
             edits.append((*match.span(), f"∂{of}/∂{by}"))
     return text.edited(edits)

@@ -232,8 +232,8 @@ def _in_units(text: str, words: Words, *, sure: bool) -> bool:
     for match in islice(_NUMBER.finditer(text), MOST):
         if match.start() >= at and (end := _unit(text, match.end(), words, True)[1]) > match.end():
             unit, behind = text[match.end() : end].strip(), _BEHIND.match(text, end)
-            if behind is not None and words.known(unit) and words.names.changes(behind["name"]):
-                return False  # 2 m x''
+            if words.known(unit) and (words.names.changes(unit) or (behind and words.names.changes(behind["name"]))):
+                return False  # 2500 s of a coordinate s; 2 m x''
             sure = sure or _unit(text, match.end(), words, False)[0] is not None
             rest, at = rest + text[at : match.start()] + " ", end
     listed = _WORD.findall(rest + text[at:]) if sure else []

@@ -25,14 +25,14 @@ def without_glosses_of_names(text: TracedText, model: Model, taken: Callable[[st
     """Return an answer in plain text without such words; ``taken`` says whether the system has a name."""
 
     def alone(match: re.Match[str]) -> str:
-        described = taken(match["of"]) and not taken(match["word"]) and match["word"].lower() in _words(model)
+        described = taken(match["of"]) and not taken(match["word"]) and match["word"].lower() in words_of_system(model)
         return match["stated"] if described else match.group()
 
     return text.sub(_GLOSSED, alone)
 
 
-def _words(model: Model) -> frozenset[str]:
+def words_of_system(model: Model) -> frozenset[str]:
     """The words of the names and descriptions of a system."""
     described = (x.description for x in (*model.coordinates, *model.parameters, *model.inputs))
-    said = (*described, *(b.name for b in model.bodies), model.name)
+    said = (*described, *(e.name for e in model.elements), model.name)
     return frozenset(x.lower() for part in said for x in _WORD.findall(part))
