@@ -73,6 +73,7 @@ def f(t, y):
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("program", [HEAD + NAMED, HEAD + CALLED, HEAD + PUT_IN, HEAD + WITHOUT_UNITS])
 def test_equations_in_comments_are_the_answer(program: str) -> None:
     assert mass().check(f"{COMMENT}\n{program}").right
@@ -86,6 +87,7 @@ def test_a_program_alone_is_right_with_its_input_as_it_is(program: str) -> None:
     assert "What the program gives F was not judged." in map(str, verdict.notes)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("old", "new"), [("F - b*v", "F"), ("- k*x)", "+ k*x)"), ("-kp*x - kd*v - b*v", "-kp*x - kd*v"), ("/m]", "/k]")]
 )

@@ -40,6 +40,7 @@ SAID = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", SAID)
 def test_the_weights_drop_out_of_deviations(said: str) -> None:
     assert hoist().check(SAID[said] + "\n" + EQUATIONS).right
@@ -47,6 +48,7 @@ def test_the_weights_drop_out_of_deviations(said: str) -> None:
     assert not hoist().check(SAID[said] + "\n" + EQUATIONS.replace("- k (R", "+ k (R")).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", SAID)
 def test_a_mistake_in_deviations_is_named(said: str) -> None:
     verdict = hoist().check(SAID[said] + "\n" + EQUATIONS.replace("c p' + ", ""))

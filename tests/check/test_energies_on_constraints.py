@@ -49,6 +49,7 @@ def test_energies_and_a_slope_with_the_constraint_put_in_are_right() -> None:
     assert lid().check(f"${tex}$\n\n${latex}$\n\n{ROW}", hint=0).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("written", "instead"),
     [
@@ -80,6 +81,7 @@ def test_a_third_coordinate_with_two_constraints_is_right() -> None:
     assert lid().check(THREE, hint=0).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("written", "instead"),
     [

@@ -73,6 +73,7 @@ def test_the_mass_and_the_matrix_are_told_apart(form: str) -> None:
     assert len(equations) == 2
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("what", WRONG)
 def test_a_wrong_one_is_told(what: str) -> None:
     written, put = WRONG[what]

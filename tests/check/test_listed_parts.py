@@ -52,6 +52,7 @@ def test_parts_that_are_right_are_added_up(pulled: lg.Derivation) -> None:
     assert "was not judged" not in found.to_text()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("right", "slip", "line"),
     [

@@ -54,6 +54,7 @@ def wrong_lines(answer: str) -> list[int]:
     return [f.line.number for f in verdict.findings if f.status is Status.WRONG]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", WITH_RHO)
 def test_a_length_in_a_list_is_used(said: str) -> None:
     answer = f"{WITH_RHO[said]}\n{BY_RHO}"
@@ -108,6 +109,7 @@ UNPACKED = ["x, rho = d", "alone, apart, rho = x"]
 IN_A_CASE = ["for x = 0, rho = d", "if x is small, rho = d", "rho = d for x = 0, rest a"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("item", [*GOES_ON, *UNPACKED, *IN_A_CASE])
 def test_a_value_that_goes_on_or_holds_in_a_case_is_not_read(item: str) -> None:
     """A decimal comma, a column without brackets, words that add or change, names of entries, and conditions."""

@@ -24,6 +24,7 @@ SAID = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", SAID)
 def test_the_name_is_the_velocity(said: str) -> None:
     equations = EQUATIONS if said != "below" else EQUATIONS.strip() + "\nw' = phi''"

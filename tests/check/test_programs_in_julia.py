@@ -184,6 +184,7 @@ end
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "program",
     [

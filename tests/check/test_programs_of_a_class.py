@@ -108,6 +108,7 @@ def right(text: str, model: str = "cart-pole") -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -139,6 +140,7 @@ def test_what_is_not_carried_out_is_told() -> None:
     assert "Lines 13 to 14 were not carried out" in str(verdict)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "program",
     [
@@ -215,6 +217,7 @@ def f(t, x, u):
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -324,6 +327,7 @@ for xi, Qi in zip(x, [0, F, 0]):
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [

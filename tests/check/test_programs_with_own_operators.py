@@ -128,6 +128,7 @@ def right(text: str, example: str) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "changes"),
     [

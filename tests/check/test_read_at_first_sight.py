@@ -78,6 +78,7 @@ LISTS = (
 """Values with units in one word, and places where the angle is 0."""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("listed", LISTS)
 def test_lists_of_values_may_end_in_words(listed: str) -> None:
     assert rocker().check(f"{listed}\n\n{IN_NUMBERS}").right
@@ -155,6 +156,7 @@ TURNED = (
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", PLACES)
 def test_values_of_an_own_coordinate_are_places(said: str) -> None:
     assert rocker().check(f"{said}\n{TURNED[0]}").right
@@ -189,6 +191,7 @@ MAILS = (
 """Sentences of mails that declare a coordinate."""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", MAILS)
 def test_an_own_coordinate_is_declared_in_a_mail(said: str) -> None:
     equation = "m l²/r² · u'' + (b + c/r²) u' + k u - (m g l/r) sin(u/r) = F l/r"
@@ -222,6 +225,7 @@ WRITTEN_OTHERWISE = (
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("old", "new"), [("import numpy", "import numpy"), *WRITTEN_OTHERWISE])
 def test_a_state_with_short_names_of_its_own_is_read(old: str, new: str) -> None:
     assert old in PROGRAM

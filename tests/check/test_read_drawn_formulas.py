@@ -198,6 +198,7 @@ D = (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2
 OVER = "(J + m*l^2)*(F - b*x' + m*l*theta'^2*sin(theta)) - m^2*g*l^2*sin(theta)*cos(theta)"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("bar", ["-" * 20, "-" * len(OVER), "─" * 90])
 @pytest.mark.parametrize("under", [" " * 12 + "D", "     (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2"])
 def test_a_fraction_over_three_lines_need_not_be_as_wide_as_its_bar(bar: str, under: str) -> None:

@@ -96,6 +96,7 @@ def wrong(answer: str) -> list[str]:
     return [answer.replace(*slip) for slip in slips if slip[0] in answer]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", PLAIN)
 def test_entries_rows_and_tables(form: str) -> None:
     assert driven().check(PLAIN[form]).right

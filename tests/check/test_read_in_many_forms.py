@@ -19,6 +19,7 @@ def verdict(answer: str, of: lg.Derivation | None = None) -> bool:
     return (of or mass()).check(answer).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "slip"),
     [

@@ -63,6 +63,7 @@ CASES = [
 GENERAL = "a = x'' + s phi'' cos(phi) - s phi'^2 sin(phi)"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("cases", CASES)
 def test_a_letter_with_a_value_for_each_case_is_no_mistake(cases: str) -> None:
     said = told(f"{cases}\n{GENERAL}\n{ALONG}\n{ROUND}")

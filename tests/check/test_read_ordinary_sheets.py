@@ -120,6 +120,7 @@ J α'' = -k α + τ + a cos α Fy - a sin α Fx
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("first", "second"), [("Fx", "Fy"), ("Sa", "Sb"), ("FH", "FV"), ("Hx", "Hy")])
 def test_a_force_of_ones_own_stands_behind_the_argument_of_a_function(first: str, second: str) -> None:
     rows = NEWTON.replace("Fx", first).replace("Fy", second)
@@ -137,6 +138,7 @@ def test_a_name_with_an_index_of_one_letter_stands_in_front_of_letters_in_latex(
         assert not right(f"{head}\n{form.replace('R_2', '2R_2')}\n{two}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -180,6 +182,7 @@ def test_mathematics_in_words_is_told_and_no_line_twice(said: str) -> None:
     assert sum(x.startswith("Line 1 ") for x in notes) <= 1
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     [

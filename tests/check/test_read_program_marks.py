@@ -26,6 +26,7 @@ def twins(written: str, old: str, new: str, name: str = "cart-pole") -> None:
     assert not right(written.replace(old, new), name)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("first", "last"),
     [

@@ -34,6 +34,7 @@ FLAP = r"""$$(J + m a^2)\ddot\theta + d\dot\theta + \kappa(\theta - \theta_0) + 
 Mit Zahlen (SI): 0,82·θ̈ + 0,25·θ̇ + 3·(θ − π/6) + 7,848·sin θ = M"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("now", "wrong"), [("0,82", "0,80"), ("+ 7,848", "− 7,848"), ("0,25·θ̇", "0,25·θ"), ("0,82·θ̈", "0,82")]
 )
@@ -100,6 +101,7 @@ def test_a_force_behind_the_name_of_an_element_is_of_this_element_alone(own: str
     assert verdict.right and verdict.to_text().count("a part of it") == 5
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("now", "wrong", "told"),
     [
@@ -137,6 +139,7 @@ I y'' + c y' + k y = R
 A θ'' + d θ' + S cos θ = τ""".replace(" + 0 M", " + J - J").replace(" + 0", " + M - M")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     [

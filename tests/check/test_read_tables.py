@@ -58,6 +58,7 @@ PARTS = """\
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "head", ["kinetic | potential", "Kinetic energy T | Potential energy V", "T | V", "E_kin [J] | E_pot [J]"]
 )

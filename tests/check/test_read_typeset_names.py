@@ -16,6 +16,7 @@ With $\jt(r) = J + m r^2$ we get
 \end{align*}"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "name",
     [
@@ -57,6 +58,7 @@ m\ddot r - \mu\dot\varphi^2 + k(r-a) &= 0
 \end{gather*}"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("space", [r"\;", r"\,\!", "~", r"\quad", "{}", "\n", ""])
 def test_there_may_be_space_in_front_of_a_brace_behind_rows(space: str) -> None:
     text = BRACED.replace(r"\;\right", rf"{space}\right")
@@ -75,6 +77,7 @@ POWER = r"""Power: $\frac{\mathrm dE_c}{\mathrm dt} = \mathcal{P}$ with $E_c = \
 \[ m \ddot x = F - b \dot x - k x \]"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("letter", [r"\mathcal{P}", "P"])
 @pytest.mark.parametrize("rate", [r"\frac{\mathrm dE_c}{\mathrm dt}", r"\dot E_c", r"\frac{d}{dt}E_c"])
 def test_what_equals_the_rate_of_an_energy_is_a_power(letter: str, rate: str) -> None:

@@ -65,6 +65,7 @@ def test_words_of_a_sentence_are_not_split(lead: str) -> None:
     assert verdict.right and "b a r" not in told and "a r m" not in told, told
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("lead", LEADS)
 def test_a_wrong_definition_behind_them_is_told(lead: str) -> None:
     verdict = crank().check(f"{lead.format('y = r sin φ')}\nT = ½ J φ'² + ½ m y'²\n{MOTION}")
@@ -105,6 +106,7 @@ DIRECTIONS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("way", DIRECTIONS)
 def test_words_of_a_direction_behind_a_formula_are_no_factors(way: str) -> None:
     verdict = drums().check(f"Weight: y = (r alpha - r beta)/2 {way}, omega = (r alpha' + r beta')/2.\n{DRUMS}")

@@ -209,6 +209,7 @@ I w' + m l² sin φ cos φ w² = τ − c w + m g l sin φ
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("words", ["wheel,", "of the wheel,", "crank, from the top;", "for the crank."])
 def test_words_behind_a_rate_say_of_which_body_it_is(words: str) -> None:
     answer = POWERS.replace("wheel,", words)
@@ -246,6 +247,7 @@ on = "phi"
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["γ1", "a_B", "aB", "a"])
 @pytest.mark.parametrize("column", ["({} ; {})", "({}, {})", "[{}; {}]"])
 def test_the_components_of_an_acceleration_are_no_list_of_equations(name: str, column: str) -> None:

@@ -37,6 +37,7 @@ def test_what_stands_beside_equations_leaves_them_right_or_wrong(kind: str) -> N
     assert not right(f"{BESIDE[kind]}\n{CART}\n{POLE.replace('- m g', '+ m g')}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "beside",
     [

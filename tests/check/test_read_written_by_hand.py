@@ -33,6 +33,7 @@ def test_a_word_between_a_formula_and_what_a_name_means_is_a_word(word: str) -> 
     assert not right(f"(M + m) x'' + m s'' + b x' {word} s = l sin theta\n{POLE}")  # no right side
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("mark", ["   ...({})", " ..... eq. ({})", " ------[{}]", " … (1.{})"])
 def test_what_dots_lead_to_is_a_number_of_an_equation(mark: str) -> None:
     numbers = ("i", "ii") if "1." not in mark else ("1", "2")

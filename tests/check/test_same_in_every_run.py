@@ -23,6 +23,7 @@ m z'' = -b (y' - z')''').to_text())
 """
 
 
+@pytest.mark.slow
 def test_a_virtual_work_is_told_alike_in_every_run() -> None:
     told = set[str]()
     for seed in "123":

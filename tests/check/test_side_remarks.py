@@ -30,6 +30,7 @@ REMARKS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("remark", REMARKS)
 def test_a_remark_does_not_make_right_equations_wrong(remark: str) -> None:
     verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{remark}\n")
@@ -107,6 +108,7 @@ def test_a_special_case_in_words_must_be_one(remark: str) -> None:
     assert not right(f"{CART}\n{WRONG_POLE}\n{remark}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "remark",
     [
@@ -244,6 +246,7 @@ def test_an_energy_that_is_stated_again_is_taken_back() -> None:
     assert not derivation("cart-pole").check(f"{said}\n{whole.replace('1/2 (M', '(M')}\n{CART}\n{POLE}").right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "remark",
     [

@@ -42,6 +42,7 @@ IN_LATEX = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("slope", [*IN_TEXT, *IN_LATEX])
 @pytest.mark.parametrize("damper", ["c", "d"])
 def test_a_bracket_is_differentiated_by_a_coordinate(slope: str, damper: str) -> None:

@@ -117,6 +117,7 @@ mu(x) x'' + 1/2 SLOPE x'^2 + k x = F - b x'
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "slope", [r"\mu'(x)", r"\mu'", r"\frac{d\mu}{dx}", r"\frac{\mathrm{d}\mu(x)}{\mathrm{d}x}", "mu'(x)", "dmu/dx"]
 )

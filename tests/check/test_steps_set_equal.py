@@ -45,6 +45,7 @@ def test_steps_that_are_set_equal_are_equations(said: str) -> None:
     assert "not read" not in str(verdict)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", SAID)
 def test_the_wrong_side_is_blamed(said: str) -> None:
     """A reaction in the Ξ of y, or a wrong left-hand side, is blamed where it stands."""

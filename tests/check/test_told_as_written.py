@@ -68,6 +68,7 @@ def said(system: lg.Derivation, answer: str) -> list[str]:
     return [" ".join(str(m.what).split()) for m in verdict.mistakes]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("weight", "told"),
     [
@@ -107,6 +108,7 @@ def test_sines_are_exchanged_in_the_weights_alone() -> None:
     assert said(column(), f"{T}\n{wrong}")[0] == "Sine and cosine are exchanged in the weights."
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("omega", "told"),
     [

@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Sequence
 from itertools import islice
 
+from lagrangian.check.reading.own_lagrangian import is_lagrangian_beside_length
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED
@@ -44,7 +45,8 @@ def own_letters_of(text: str, model: Model) -> OwnLetters:
     plain = unicodedata.normalize("NFD", text)
     sure, may = set[str](), set[str]()
     moving = re.compile("|".join(_written(c.name) for c in model.coordinates))
-    for name in (p.name for p in model.parameters):
+    energy = {"L"} if is_lagrangian_beside_length(text) else set[str]()
+    for name in (p.name for p in model.parameters if p.name not in energy):
         written = _written(name)
         if re.search(rf"(?<![\w\\]){written}", plain) is None:
             continue
