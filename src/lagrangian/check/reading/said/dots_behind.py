@@ -21,7 +21,8 @@ from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 _NAME = r"[^\W\d_]\w{0,15}+"
-_ONE = rf"(?<![\w.]){_NAME}\.(?![.\w])"
+_ONE = rf"(?<![\w.])(?!(?:etc|resp|bzw|usw|ca|cf|vs|no|eq|fig)\.){_NAME}\.(?![.\w])"
+"""A name with a dot, which no short word has: etc."""
 _LISTED = re.compile(
     rf"(?P<names>{_ONE}(?:(?:[ \t]*(?:,|&)|[ \t]+(?:and|und))[ \t]*{_ONE}){{0,7}})[ \t]*+"
     r"(?:(?:=|:|\bare\b|\bdenote\b)[ \t]*+)?"
