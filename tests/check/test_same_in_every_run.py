@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 WORK = """
 import lagrangian as lg
 s = lg.System("two masses")
