@@ -83,6 +83,7 @@ def test_equations_above_a_discussion_are_judged(said: str, right: str, wrong: s
         "m l^2 phi'' + m g l sin(phi) = tau",
         "The pendulum obeys m l^2 phi'' + m g l sin(phi) = tau in every motion.",
         "k x = F",
+        "k x = 0",
         "k x = 2 F",
         "For l = 1 we get the same, m g l = 2 m g.",
     ],

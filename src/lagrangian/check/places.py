@@ -261,7 +261,9 @@ def _middle(expr: sp.Expr, symbols: list[AppliedUndef]) -> dict[sp.Basic, sp.Exp
     return {q: cast("sp.Expr", sp.cancel(-rest / slope))}
 
 
-def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef, others: Collection[AppliedUndef] = ()) -> bool:
+def _is_at_rest(
+    truth: Reference, expr: sp.Expr, place: AppliedUndef, others: Collection[AppliedUndef] | None = None
+) -> bool:
     """Whether a row of the system at rest, with constant inputs, vanishes wherever the line holds.
 
     Where words say that it is at rest, it holds at any values of the ``others``, and inputs that it lacks are 0.

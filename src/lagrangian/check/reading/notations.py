@@ -101,7 +101,7 @@ _STAR_BELOW = re.compile(r"_(?:\\(?P<sign>ast|star)(?![A-Za-z])|\{\\(?P<within>a
 """An index that is a star, in LaTeX: J_\\ast."""
 _SIGN_BELOW = re.compile(
     r"(?<=[^\W\d_}])_(?:\{[ ]?(?P<within>[-+−*]|\\(?:perp|parallel|bot|\|))[ ]?\}"
-    r"|(?P<alone>[-+−](?![\w.(])|\*(?![\w*.(]))|(?P<sign>\\(?:perp|parallel|bot)(?![A-Za-z])|\\\|))"
+    r"|(?P<alone>[-+−](?![\w.(\[])|\*(?![\w*.(\[]))|(?P<sign>\\(?:perp|parallel|bot)(?![A-Za-z])|\\\|))"
 )
 """An index that is a sign: m_+, m_{-}, v_\\perp, s_*."""
 _SIGNS = {"+": "plus", "-": "minus", "−": "minus", "*": "ast", "\\|": "parallel", "\\bot": "perp"}
