@@ -57,7 +57,7 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    values = [x for x in lines if x.kind == "identity" and (_is_of_rest(truth, x) or _is_of_place(truth, x))]
+    values = {id(x): why for x in lines if x.kind == "identity" and (why := _value(truth, x))}
     complete = comparison.rank >= truth.n
     if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
@@ -67,7 +67,7 @@ def beside(
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
     still = [x for x in wrong if complete and stands_still(truth, x.expr, x.text)]
     aside |= dict.fromkeys(map(id, still), "it is about one motion")
-    aside |= {id(line): AT_REST if _is_of_rest(truth, line) else "it holds under its condition" for line in values}
+    aside |= values
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
@@ -103,6 +103,13 @@ def _below(
     below = [x for x in wrong if x.number > max(right, default=0) and "special" in x.beside]
     found = [x for x in below if not x.expr.has(*accelerations)]
     return [x for x in found if rests(truth, x.expr, said="rest" in x.beside) is not False]
+
+
+def _value(truth: Reference, line: AnsweredLine) -> str | None:
+    """Why a statement is not about every motion: it is right at rest, or at the place that its words say."""
+    if _is_of_rest(truth, line):
+        return AT_REST
+    return "it holds under its condition" if _is_of_place(truth, line) else None
 
 
 def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:

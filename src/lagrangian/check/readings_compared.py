@@ -6,16 +6,11 @@ import re
 
 from lagrangian.check.reading import Answer
 from lagrangian.check.reading.line_forms import accelerates
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.errors import ParseError
 
 ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
 """A line that takes an entry of a state: v = y(3)."""
-
-
-def open_findings(verdict: Verdict) -> list[Finding]:
-    """The findings that are wrong and follow from none."""
-    return [f for f in verdict.findings if f.is_open]
 
 
 def program_of(answer: Answer) -> Answer | None:

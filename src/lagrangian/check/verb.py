@@ -47,7 +47,6 @@ from lagrangian.check.readings_compared import (
     computes_right,
     is_misread,
     of_comments,
-    open_findings,
     program_of,
     wrong_together,
 )
@@ -211,12 +210,12 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
-    if not answer.program and len(open_findings(verdict)) > 1 and program is not None:
+    if not answer.program and len(verdict.open_findings) > 1 and program is not None:
         try:
             other = _of_readings(derivation, program, hint)
         except ParseError:
             other = verdict
-        if 0 < len(open_findings(other)) < len(open_findings(verdict)):
+        if 0 < len(other.open_findings) < len(verdict.open_findings):
             return other
     if asked:
         lines = without_names_of_equations(decides.lines, asked)

@@ -267,6 +267,11 @@ class Verdict:
         return sum(f.status.right for f in self.findings if f.line.kind in ("T", "V", "L", "equation"))
 
     @property
+    def open_findings(self) -> tuple[Finding, ...]:
+        """The lines where the answer goes wrong: those that are wrong and follow from none."""
+        return tuple(f for f in self.findings if f.is_open)
+
+    @property
     def first_wrong(self) -> Finding | None:
         """The first line that is wrong and follows from none; if none is, the first that says nothing."""
         left = [f for f in self.findings if not f.status.right]

@@ -41,7 +41,7 @@ SIGN = 1
 
 def with_terms_as_written(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict, in which sentences on what is wrong in a term name it as it stands in a wrong line."""
-    roots = [f for f in verdict.findings if f.is_open]
+    roots = verdict.open_findings
     differences = [d for f in roots for d in f.differences if d.written != 0 and d.kind not in ("missing", "extra")]
     if not differences:
         return verdict
@@ -65,7 +65,7 @@ def _quoted(truth: Reference, mistake: Mistake, differences: Sequence[TermDiffer
 
 def with_terms_as_they_stand(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict, with the terms of its mistakes in the form in which they are written where they differ."""
-    roots = [f for f in verdict.findings if f.is_open and f.differences]
+    roots = [f for f in verdict.open_findings if f.differences]
     if not roots:
         return verdict
     told = (tuple(_told(truth, m, roots) for m in every) for every in (verdict.mistakes, verdict.alternatives))

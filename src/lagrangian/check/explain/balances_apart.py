@@ -56,7 +56,7 @@ def with_balances_apart(truth: Reference, lines: Sequence[AnsweredLine], verdict
         if any(y is not x and _share(x, y, forces) and False in (own[id(x)], own[id(y)]) for y in apart)
     ]
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
-    blamed = {place_of(f.line) for f in verdict.findings if f.is_open}
+    blamed = {place_of(f.line) for f in verdict.open_findings}
     unseen = [x for x in linked if place_of(x) not in wrong]
     if len({x.number for x in unseen}) < 2 or not any(own[id(x)] is False for x in unseen):
         return verdict

@@ -15,7 +15,6 @@ from lagrangian import bounded
 from lagrangian.check.explain.second_choices import MADE_IN
 from lagrangian.check.explain.term_said import REASON, with_reason
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
-from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 
 ENERGIES = ("T", "V", "L")
@@ -103,7 +102,7 @@ def _with_one_term(verdict: Verdict) -> Verdict:
     made = MADE_IN.match(str(mistake.what))
     if made is None or REASON in str(mistake.what):
         return verdict
-    roots = [f for f in open_findings(verdict) if f.differences or not f.clash]
+    roots = [f for f in verdict.open_findings if f.differences or not f.clash]
     terms = {(f.line.number, d.kind, d.term, d.written): (f, d) for f in roots for d in f.differences}
     if not all(f.differences for f in roots) or not 0 < len(terms) <= MOST_TOLD:
         return verdict

@@ -18,7 +18,6 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.without_energies import WHOLE
-from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
 from lagrangian.records import dataclass
@@ -107,7 +106,7 @@ def _one_weight_lacks(mistakes: Sequence[Mistake], whole: Mistake) -> bool:
 
 def _elements(verdict: Verdict) -> set[str]:
     """The elements of which terms differ in lines that follow from none."""
-    return {o.element for f in open_findings(verdict) for d in f.differences for o in d.origins}
+    return {o.element for f in verdict.open_findings for d in f.differences for o in d.origins}
 
 
 def _claim(parts: Parts) -> _MissingTerms | None:
@@ -167,7 +166,7 @@ def _lacks_terms(difference: TermDifference, letter: sp.Expr) -> bool:
 
 def _lacking(verdict: Verdict, factor: sp.Expr) -> list[sp.Expr]:
     """The terms with a factor that the lines which follow from none lack."""
-    found = [d.term for f in open_findings(verdict) for d in f.differences if d.kind == "missing"]
+    found = [d.term for f in verdict.open_findings for d in f.differences if d.kind == "missing"]
     listed = list(dict.fromkeys(t for t in found if _has(t, factor)))
     return listed if len(listed) <= MOST_LISTED else []
 
@@ -182,5 +181,5 @@ def _listed(terms: Sequence[sp.Expr]) -> list[str | sp.Expr]:
 
 def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDifference]]:
     """The terms that differ in the equation of a mistake, in lines that follow from none, from its element."""
-    every = [(f, d) for f in open_findings(verdict) if f.line.kind == "equation" for d in f.differences]
+    every = [(f, d) for f in verdict.open_findings if f.line.kind == "equation" for d in f.differences]
     return [(f, d) for f, d in every if mistake.element is None or mistake.element in {o.element for o in d.origins}]

@@ -77,5 +77,5 @@ def _blamed(
         return None
     asked = replace(verdict, mistakes=(), alternatives=())  # one for the definition is of what it is not meant to be
     found = with_wrong_balance(truth, listed, asked, judge=judge)
-    roots = {place_of(f.line) for f in found.findings if f.is_open}
+    roots = {place_of(f.line) for f in found.open_findings}
     return found if roots == {place_of(line)} and found.mistakes else None

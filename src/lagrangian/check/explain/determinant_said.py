@@ -26,7 +26,7 @@ def with_determinant(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     wrong, if there is one, and the accelerations as what follows."""
     if not verdict.mistakes or any(m.name not in (solved.NAME, solved.TERM_NAME) for m in verdict.mistakes):
         return verdict
-    rows = [f for f in verdict.findings if f.is_open]
+    rows = verdict.open_findings
     if truth.n < 2 or not all(f.line.kind == "equation" for f in rows):
         return verdict
     above = [x for x in lines if x.kind == "definition" and x.name and x.number < min(f.line.number for f in rows)]

@@ -83,7 +83,7 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
 def _by_own_term(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict, in which a mistake in the energy of one equation alone, of an answer without energies, is told by
     the one term in which that differs: R S for 2 R S."""
-    roots = [f for f in verdict.findings if f.is_open]
+    roots = verdict.open_findings
     far = len(verdict.mistakes) == 1 and ALONE in str(verdict.mistakes[0].what)
     if not far or any(x.kind in ("T", "V", "L") for x in lines) or len(roots) != 1 or len(roots[0].differences) != 1:
         return verdict

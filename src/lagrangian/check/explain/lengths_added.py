@@ -28,7 +28,7 @@ def with_lengths_added(truth: Reference, verdict: Verdict) -> Verdict:
     turned = next((m for m in verdict.mistakes if m.name == TURNED), None)
     if turned is None or verdict.hint == 0:
         return verdict
-    for finding in (f for f in verdict.findings if f.is_open):
+    for finding in verdict.open_findings:
         for added, squares in _sums(truth, finding.line):
             what = text(f"In {finding.line.title}, ", added, " stands in place of ", squares, ".")
             brief = text(f"A sum of lengths in {finding.line.title} is not right.")

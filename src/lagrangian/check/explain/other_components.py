@@ -43,7 +43,7 @@ def with_other_components(truth: Reference, lines: Sequence[AnsweredLine], verdi
             break
     if not more:
         return verdict
-    first = next((f.line.number for f in verdict.findings if f.is_open), None)
+    first = next((f.line.number for f in verdict.open_findings), None)
     above = [m for number, m in more if first is None or number < first]
     below = [m for _, m in more if m not in above]
     return replace(verdict, findings=tuple(findings), mistakes=(*above, *verdict.mistakes, *below))

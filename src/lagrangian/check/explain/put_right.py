@@ -127,7 +127,7 @@ def _with_wrong_shorthand(
 
 def _open(verdict: Verdict) -> list[Finding]:
     """The findings that are wrong and follow from none, but for those of definitions."""
-    wrong = [f for f in verdict.findings if f.is_open]
+    wrong = verdict.open_findings
     return [f for f in wrong if f.line.kind != "definition"]
 
 

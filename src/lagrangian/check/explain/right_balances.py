@@ -45,7 +45,7 @@ def with_right_balances(
     values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
     right = [*balances.lines, *(x for x in later if is_true(truth, x, values))]
     own = {place_of(x) for x in (*balances.lines, *later)}
-    roots = [f for f in verdict.findings if f.is_open and place_of(f.line) not in own]
+    roots = [f for f in verdict.open_findings if place_of(f.line) not in own]
     if not roots:
         return None
     slips = [x for x in wrong_constraints(truth, verdict.findings) if place_of(x.finding.line) not in own]

@@ -57,7 +57,7 @@ def distinct(others: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistak
 
 def fitting(verdict: Verdict) -> Verdict:
     """The verdict with the second choices that may be true, and that repeat no mistake which is told."""
-    open_ones = [f for f in verdict.findings if f.is_open]
+    open_ones = verdict.open_findings
     kinds = {d.kind for f in open_ones for d in f.differences}
     missing = kinds == {"missing"} or (not kinds and all(_family(m) == "left out" for m in verdict.mistakes))
     wrong = {f.line.kind for f in verdict.findings if f.status is Status.WRONG}

@@ -13,7 +13,6 @@ from typing import TypeAlias, cast
 
 import sympy as sp
 
-from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.terms.sides import LEFT, on_side
 from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
@@ -31,10 +30,10 @@ ON_LEFT, ON_RIGHT = "on the left-hand side", "on the right-hand side"
 
 def with_sides(verdict: Verdict) -> Verdict:
     """The verdict, with the terms of its mistakes as they stand in the wrong equations."""
-    roots = [f for f in verdict.findings if f.line.kind == "equation" and f.is_open]
+    roots = [f for f in verdict.open_findings if f.line.kind == "equation"]
     if not roots:
         return verdict
-    if any(f.line.kind != "equation" for f in open_findings(verdict)):
+    if any(f.line.kind != "equation" for f in verdict.open_findings):
         roots = [f for f in roots if f.coordinate is not None]  # a term may stand in an energy and in no equation
     told = tuple(_on_side(m, roots) for m in verdict.mistakes)
     return replace(verdict, mistakes=told, alternatives=tuple(_on_side(m, roots) for m in verdict.alternatives))

@@ -49,7 +49,7 @@ def with_special_case(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer that nothing explains, with the terms of which a special case shows the mistake."""
     lines = [f.line for f in verdict.findings if f.line.kind == "equation"]
     unknown = unknown_names(expanded(truth), lines) if lines else []
-    wrong = [f.line for f in verdict.findings if f.is_open]
+    wrong = [f.line for f in verdict.open_findings]
     nothing = verdict.status is Status.WRONG and not verdict.mistakes and lines and wrong
     if not nothing or len(unknown) > len(truth.derivation.multipliers):
         return verdict

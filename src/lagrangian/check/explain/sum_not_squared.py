@@ -25,7 +25,7 @@ WHY = text("T* has the square of the whole velocity: of every component, with al
 def with_sum_not_squared(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on an answer without a better explanation, in which one sum that is not squared makes T* or L
     wrong."""
-    wrong = [f.line for f in verdict.findings if f.is_open]
+    wrong = [f.line for f in verdict.open_findings]
     energies = [line for line in wrong if line.kind in ("T", "L")]
     open_ = len(verdict.mistakes) < 2 and all(m.name in LEFT_TO_TERMS for m in verdict.mistakes)
     if not open_ or verdict.hint == 0 or len({line.number for line in energies}) != 1 or energies[0] is not wrong[0]:

@@ -24,7 +24,7 @@ WHY_CARRIED = text(
 
 def with_terms_alone(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with the terms that differ as its mistakes if it has none and they are few."""
-    roots = [f for f in verdict.findings if f.is_open and not f.clash]
+    roots = [f for f in verdict.open_findings if not f.clash]
     differing = [(f, d) for f in roots for d in f.differences]
     forces = [f.line.name for f in verdict.findings if f.line.kind == "Xi"]
     unclear = any(forces.count(f.line.name) > 1 for f in roots)  # one that is stated twice
@@ -37,7 +37,7 @@ def with_terms_alone(verdict: Verdict) -> Verdict:
 def with_terms_of_a_balance(verdict: Verdict) -> Verdict:
     """The same for a wrong balance of a body; where it lacks an acceleration, this is what carries the body."""
     told = with_terms_alone(verdict)
-    lacking = [d for f in told.findings if f.is_open for d in f.differences]
+    lacking = [d for f in told.open_findings for d in f.differences]
     if len(lacking) != 1 or lacking[0].written != 0 or not any(x.derivative_count > 1 for x in _rates(lacking[0])):
         return told
     return replace(told, mistakes=tuple(replace(m, why=WHY_CARRIED) for m in told.mistakes))

@@ -19,7 +19,6 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
 from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
-from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.terms.pieces import partner
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
@@ -147,7 +146,7 @@ def _says_nothing(mistake: Mistake) -> bool:
 
 def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether V is said to be wrong beside right ∂ℒ/∂ξ of all coordinates whose equations are wrong."""
-    wrong = open_findings(verdict)
+    wrong = verdict.open_findings
     roots = {f.coordinate for f in wrong if f.line.kind == "equation"}
     right = {f.line.name for f in verdict.findings if f.line.kind == "slope" and f.status.right}
     others = any(f.line.kind != "equation" for f in wrong)
@@ -157,7 +156,7 @@ def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:
 
 def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether a power or a letter is said to be wrong where one number of an equation without parameters is."""
-    wrong = open_findings(verdict)
+    wrong = verdict.open_findings
     differing = [d for f in wrong for d in f.differences]
     if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
         return False
@@ -209,7 +208,7 @@ def _without_refuted_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
 def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether the lines in which a mistake shows lack terms, and differ in nothing else."""
     kinds = {d.kind for _, d in _differing(mistake, verdict)}
-    open_ones = open_findings(verdict)
+    open_ones = verdict.open_findings
     compared = {f.line.title for f in open_ones if f.differences}
     return kinds == {"missing"} and all(f.line.title in compared for f in open_ones)
 
@@ -217,7 +216,7 @@ def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
 def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDifference]]:
     """The terms that differ in the lines that follow from none, and that come from the element of a mistake."""
     titles = set((mistake.element or "").replace(" and ", EITHER).split(EITHER))
-    every = [(f, d) for f in open_findings(verdict) for d in f.differences]
+    every = [(f, d) for f in verdict.open_findings for d in f.differences]
     return [(f, d) for f, d in every if mistake.element is None or titles & {o.element for o in d.origins}]
 
 

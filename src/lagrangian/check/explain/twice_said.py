@@ -32,7 +32,7 @@ WHY_DAMPER = text("A damper pulls with its constant times its rate, and its forc
 
 def with_twice_said(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict, in which what stands once with twice its value is not said to be counted twice."""
-    roots = [f for f in verdict.findings if f.is_open]
+    roots = verdict.open_findings
     places = [(f, d) for f in roots for d in f.differences if d.kind == "coefficient"]
     if not places:
         return verdict

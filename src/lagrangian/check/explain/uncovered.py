@@ -14,7 +14,6 @@ from dataclasses import replace
 from lagrangian.check.explain.after_own_rates import slip_in_own_rate
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.terms_alone import LEFT_OVER, MOST_TOLD, term_mistake
-from lagrangian.check.readings_compared import open_findings
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, Finding, Mistake, Status, TermDifference, Verdict
 
@@ -40,7 +39,7 @@ def _with_terms_of_derivatives(verdict: Verdict) -> Verdict:
     blamed = any(str(m.what).startswith(BLAMES) for m in told)
     if blamed or any(str(note).endswith(LEFT_OVER) for note in verdict.notes):
         return verdict
-    found = [(f, d) for f in open_findings(verdict) if f.line.kind in KINDS for d in f.differences]
+    found = [(f, d) for f in verdict.open_findings if f.line.kind in KINDS for d in f.differences]
     open_ones = [(f, d) for f, d in found if d.origins and not any(_speaks_of(m, f, d) for m in told)]
     if not 0 < len(open_ones) <= MOST_TOLD:
         return verdict
@@ -55,7 +54,7 @@ def _with_absent(verdict: Verdict) -> Verdict:
         return verdict
     found: dict[str, tuple[Finding, TermDifference]] = {}
     right = {f.coordinate for f in verdict.findings if f.line.kind == "equation" and f.status.right}
-    for f in open_findings(verdict):
+    for f in verdict.open_findings:
         if f.line.kind != "equation" or f.coordinate in {None, *right}:
             continue  # or it is compared with what another line says
         for d in f.differences:
@@ -73,7 +72,7 @@ def _with_rates(truth: Reference, verdict: Verdict) -> Verdict:
     the lines below it."""
     told = list(verdict.mistakes)
     numbers = [int(x["number"]) for m in told if (x := _LINE.search(str(m.what))) is not None]
-    for f in open_findings(verdict):
+    for f in verdict.open_findings:
         if f.line.kind != "identity" or not numbers or any(f.line.number >= k for k in numbers):
             continue
         if len(numbers) == len(told) and (slip := slip_in_own_rate(truth, f.line)) is not None:

@@ -107,7 +107,7 @@ def with_wrong_balance(
     holds = np.any([hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
-    roots = {place_of(f.line) for f in verdict.findings if f.is_open}
+    roots = {place_of(f.line) for f in verdict.open_findings}
     theirs = solved.known is not None or (solved.term is not None and solved.term.term.has(*balances.forces))
     plain &= theirs or k is None or k in parts or on is not truth
     if verdict.mistakes and roots == {place_of(line)} and not plain:
@@ -166,7 +166,7 @@ def _without_invented(balances: Balances, parts: Mapping[int, KnownPart], verdic
     places = left_out(balances)
     apart = [balances.lines[i] for i in places] if 1 < len(places) <= MOST_TOLD else []
     wrong = {place_of(f.line) for f in verdict.findings if f.status is Status.WRONG}
-    roots = {place_of(f.line) for f in verdict.findings if f.is_open}
+    roots = {place_of(f.line) for f in verdict.open_findings}
     spared = [i for i in places if place_of(balances.lines[i]) not in wrong]
     doubtful = any(not told or i not in parts or not parts[i].right for i in spared)
     own = {place_of(x) for x in apart}

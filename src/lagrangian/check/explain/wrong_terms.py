@@ -51,7 +51,7 @@ def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
 
 def _with_definition(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
     """The verdict with the wrong definitions from which all lines follow that are wrong; None if there are none."""
-    wrong = [f.line for f in verdict.findings if f.is_open]
+    wrong = [f.line for f in verdict.open_findings]
     right = [f.line for f in verdict.findings if f.status.right]
     if not all(x.kind == "equation" for x in wrong) or not np.isfinite(truth.W).all():
         return None
@@ -74,7 +74,7 @@ def _with_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdic
     balanced = with_wrong_balance(truth, lines, verdict)
     if balanced is verdict and verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
         combined = with_combined_rows(truth, lines, replace(verdict, mistakes=(), alternatives=()))
-        wrong = [f.line.expr for f in verdict.findings if f.is_open]
+        wrong = [f.line.expr for f in verdict.open_findings]
         if any(m.name == "denominator" for m in verdict.mistakes) and any(denominator_of(x) is not None for x in wrong):
             return _with_term_of_denominator(truth, lines, verdict, combined)
         found = _with_denominators(truth, lines, with_terms_alone(combined), combined)
@@ -106,7 +106,7 @@ def _in_denominator(
 
 def _with_denominators(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict, combined: Verdict) -> Verdict:
     """The verdict with one wrong term, told as one of a denominator where it stands in one."""
-    roots = [f for f in combined.findings if f.is_open]
+    roots = combined.open_findings
     terms = _in_denominator(truth, lines, roots[0]) if len(roots) == len(verdict.mistakes) == 1 else None
     if terms is None:
         return verdict
@@ -136,7 +136,7 @@ def _with_term_of_denominator(
 def _with_term_of_one_line(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on an answer in which one line alone is wrong beside right equations of motion, and nothing explains
     it: with the term without which it is right along the right motion."""
-    wrong = [f for f in verdict.findings if f.is_open]
+    wrong = verdict.open_findings
     alone = len(wrong) == 1 and wrong[0].line.kind == "equation" and len(wrong[0].differences) != 1
     if verdict.mistakes or not verdict.motion or not alone or truth.derivation.multipliers:
         return verdict

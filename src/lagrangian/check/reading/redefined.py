@@ -19,6 +19,7 @@ from lagrangian.check.reading.components import component_of
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.placeholders import is_placeholder, is_vector
+from lagrangian.errors import Place
 from lagrangian.model import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
@@ -39,6 +40,10 @@ def contradicting(
     So is one for the rate of a point's component that is not the derivative of the point, xS' beside S = (…, …).
     Values that cannot be judged, a number beside a formula or a force beside another, are told in a note.
     """
+
+    def place_of(i: int) -> Place:
+        return made[i][-1].place if made.get(i) else sources[i].at(0)
+
     for _, i, above, value in names.redefined.unused():
         told = " ".join(sources[i].text.split())
         for a, b in _pairs(above, value):
@@ -48,16 +53,14 @@ def contradicting(
                 names.notes.setdefault(f"'{told}' was not judged: the value that is used is another one.")
                 continue
             kind: Kind = "equation" if accelerates(a) or accelerates(b) else "identity"
-            last = made.get(i)
-            yield i, AnswerLine(kind, a, b, None, last[-1].place if last else sources[i].at(0), told)
+            yield i, AnswerLine(kind, a, b, None, place_of(i), told)
     for name, order, value, i in names.redefined.rates:
         place = component_of(name, lambda of: names.own.get(key(of), ("", None))[1])
         if place is None or key(name) in names.own or not isinstance(value, sp.Expr):
             continue
         rate = bounded.diff(place, *[time] * order)
         if _differ(rate, value) and not any(map(names.is_unknown, bounded.letters(rate) | bounded.letters(value))):
-            last, told = made.get(i), " ".join(sources[i].text.split())
-            yield i, AnswerLine("identity", value, rate, None, last[-1].place if last else sources[i].at(0), told)
+            yield i, AnswerLine("identity", value, rate, None, place_of(i), " ".join(sources[i].text.split()))
 
 
 def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:

@@ -22,9 +22,10 @@ _BEHIND = re.compile(
 def without_elements_behind(text: TracedText, model: Model, taken: Callable[[str], bool]) -> TracedText:
     """Return a plain text without words of the system's descriptions at the end of statements, where each stands in the
     answer behind equals signs alone and is no name."""
-    spoken = words_of_system(model)
     edits: list[Edit] = []
-    for match in islice(_BEHIND.finditer(text.text), MOST):
+    found = list(islice(_BEHIND.finditer(text.text), MOST))
+    spoken = words_of_system(model) if found else ()
+    for match in found:
         line = text.text[text.text.rfind("\n", 0, match.start()) + 1 : match.start()]
         if "=" in line and match["word"] in spoken and not taken(match["word"]):
             edits.append((match.start("word"), match.end("word"), " " * len(match["word"])))

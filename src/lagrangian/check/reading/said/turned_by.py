@@ -17,7 +17,7 @@ MOST = 20
 
 _NAME = r"\\?[^\W\d_][\w]{0,15}"
 _TURNS = re.compile(
-    r"(?P<open>\()(?:(?:so|and|where|thus|hence|then|also)[ ](?:that[ ])?)?(?:the[ ]|die[ ]|der[ ]|das[ ]|le[ ]|la[ ])?"
+    r"\((?:(?:so|and|where|thus|hence|then|also)[ ](?:that[ ])?)?(?:the[ ]|die[ ]|der[ ]|das[ ]|le[ ]|la[ ])?"
     r"(?P<noun>[^\W\d_]{3,20})[ ](?:then[ ]|itself[ ]|itself[ ]then[ ])?"
     r"(?:turns|rotates|moves|rises|sinks|dreht[ ]sich|dreht|bewegt[ ]sich|tourne)[ ](?:by|with|through|um|mit|de)[ ]"
     rf"(?P<by>{_NAME}(?:[ ]?[/*·][ ]?{_NAME}|[ ]{_NAME})?)(?P<close>[ ]?[.)])",
@@ -31,7 +31,7 @@ def with_turned_bodies(text: TracedText, model: Model, taken: Callable[[str], bo
     edits: list[Edit] = []
     for match in islice(_TURNS.finditer(text.text), MOST):
         noun = re.compile(rf"(?<!\w){re.escape(match['noun'])}(?!\w)", re.IGNORECASE)
-        meant = [c.name for c in model.coordinates if noun.search(c.description or "")]
+        meant = [c.name for c in model.coordinates if noun.search(c.description)]
         new = [x for x in re.findall(_NAME, match["by"]) if not taken(x.lstrip("\\"))]
         if len(meant) == len(new) == 1:
             edits.append((*match.span(), f"({meant[0]} = {match['by']}{match['close']}"))
