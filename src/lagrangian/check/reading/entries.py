@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from lagrangian.check.reading.name_patterns import LOWERED
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
@@ -22,7 +23,6 @@ _SOLVED = re.compile(
 _ACCELERATIONS = re.compile(r"q?acc(?:el(?:erations?)?)?|a|sol|ans")
 _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
 
-_LOWERED = str.maketrans("₁₂₃₄₅₆", "123456")
 
 _COLUMN = r"(?:\*\*)?[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
 """What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
@@ -69,7 +69,7 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
         return written
     found: dict[str, dict[str, str]] = {}
     for match in _ENTRY.finditer(written.text):
-        found.setdefault(match["name"], {}).setdefault(match["place"].translate(_LOWERED), match.group().strip())
+        found.setdefault(match["name"], {}).setdefault(match["place"].translate(LOWERED), match.group().strip())
     given = set(_MATRIX.findall(written.text))
     numbers = [str(k + 1) for k in range(count)]
     added: list[str] = []

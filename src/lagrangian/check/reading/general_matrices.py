@@ -13,6 +13,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import LOWERED
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.records import dataclass
 
@@ -21,7 +22,6 @@ MOST = 6
 
 _TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]{1,2000}\|[ \t]*+(?:\n|\Z)){2,40}", re.MULTILINE)
 _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|){1,9}[ \t]*")
-_LOWERED = str.maketrans("₁₂₃₄₅₆", "123456")
 _INDEX = r"_?\{?[1-6₁-₆]{1,2}\}?"
 _ENTRY = rf"[A-Za-z]{_INDEX}"
 _ENTRIES = re.compile(rf"{_ENTRY}(?:[ \t]*+=[ \t]*+{_ENTRY}){{0,3}}")
@@ -172,7 +172,7 @@ class _Form:
     def _entries(self, name: str) -> dict[str, str]:
         """The entries of a name that an answer gives, as it writes them."""
         found = {
-            m.translate(_LOWERED)
+            m.translate(LOWERED)
             for m in re.findall(rf"(?<![\w\\])({name}{_INDEX})[ \t]{{0,9}}{self.notation.equals}(?!=)", self.text)
         }
         return {re.sub(r"[_{}]", "", m)[len(name) :]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}

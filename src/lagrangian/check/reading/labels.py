@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.name_patterns import OF_CHAPTER
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING, LINKING
 from lagrangian.check.reading.stated import ENERGY_NAMES
@@ -19,7 +20,7 @@ _CALLED_ENERGY = re.compile(r"[ \t]*+(?P<word>[^\W\d_]{4,20})[ \t]+(?=[^\W\d]\*?
 _BULLET = re.compile(r"\s*[*+][ \t]+(?=[\w(\[])")
 _EQUATION = r"(?:[Ee]qn?|[Ee]quation|[Gg]l|[Gg]ln|[Gg]leichung|EOM|DGL|BWG|[Éé]q)"
 _NUMBER = r"\d{1,3}(?:\.\d{1,3}){0,2}[a-z]?['′*]{0,2}"
-_OF_CHAPTER = r"(?:[IVX]{1,4}|[A-Z])\.\s?\d{1,2}[a-z]?['′*]{0,2}"
+_OF_CHAPTER = rf"{OF_CHAPTER}['′*]{{0,2}}"
 """A number with that of its chapter: II.1, A.2."""
 _NUMBERED = re.compile(
     rf"\s*(?:[(\[]\s*{_OF_CHAPTER}\s*[)\]]|\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"

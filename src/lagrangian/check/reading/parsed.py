@@ -15,6 +15,7 @@ from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.listed_items import holds_in_a_case, listed_items
+from lagrangian.check.reading.name_patterns import NAME
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.ends import missing_brackets
 from lagrangian.check.reading.plain.formula import PlainParser
@@ -37,9 +38,6 @@ FEWEST_NAMES = 3
 """The fewest names of the system in a sentence that may hold a result."""
 MANY_WORDS = 2
 """English words in a row that make it a sentence."""
-
-NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-"""A name, with combining dots."""
 
 _LETTERS = r"[^\W\d]\w{0,11}"
 _MEANING = re.compile(

@@ -29,9 +29,10 @@ from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.marked_names import begun
 from lagrangian.check.reading.marked_values import with_marks
 from lagrangian.check.reading.markup import without_markup
+from lagrangian.check.reading.name_patterns import NAME, WORD_LETTER
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.notations import without_notations
-from lagrangian.check.reading.parsed import NAME, parsed, parsers_of, places_of_marks
+from lagrangian.check.reading.parsed import parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.plain.tokens import with_points
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
@@ -83,7 +84,7 @@ _BEGINS = (
 """Where a name that gets a value may stand; also in brackets at the end of a line: (a = cos β)."""
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
-_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
+_CALLED = re.compile(rf"(?<![\w*/^+-])({WORD_LETTER}{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _NAMED = re.compile(
     rf"(?:^|[.:;,][ \t])[^\S\n]*+(?:(?:[^\W\d_]{{2,24}}|\d{{1,3}})[ \t]++){{1,4}}((?>{NAME}))"
     rf"[ \t]*+{_SQUARED}[ \t]*+=(?![=>])",

@@ -19,6 +19,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.meaning import Meaning
+from lagrangian.check.reading.name_patterns import RAISED
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, names_in
 from lagrangian.check.reading.placeholders import is_placeholder
@@ -247,11 +248,8 @@ class _Counted:
 def _whole(exponent: Sequence[Node]) -> int | None:
     """The number of an exponent; None if it is no whole one."""
     text = "".join(str(x) for part in exponent for x in _leaves(part))
-    text = text.translate(_RAISED).lstrip("^*")
+    text = text.translate(RAISED).lstrip("^*")
     return int(text) if len(text) < 4 and text.lstrip("-").isdigit() else None
-
-
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 def _leaves(part: Node) -> Iterator[object]:

@@ -12,6 +12,7 @@ from lark import Tree
 
 from lagrangian.check.reading.latex.quotients import CLOSING, LatexFractions
 from lagrangian.check.reading.multiple_angles import is_multiple
+from lagrangian.check.reading.name_patterns import RAISED
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import (
     Node,
@@ -36,7 +37,6 @@ from lagrangian.read.letters import key, normal
 _ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 _BEGINS_LISTED = "number fraction letters symbol upright accent decoration function frac sqrt { ( [ abs( begin partial"
 _BEGINS = frozenset(_BEGINS_LISTED.split())
-_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
 
 
@@ -279,7 +279,7 @@ class LatexParser(LatexFractions):
             if self._is_minus_one(exponent):
                 called, exponent = _INVERSE.get(called, called), None
         elif (raised := self.accept("raised")) is not None:
-            exponent = number(raised.text.translate(_DIGITS), raised.start)
+            exponent = number(raised.text.translate(RAISED), raised.start)
         elif self._has_power_in_brackets():
             exponent = self._closed("]")
         arguments = self._arguments(token)

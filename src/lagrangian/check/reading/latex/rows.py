@@ -10,6 +10,7 @@ from lagrangian.check.reading.labels import DIRECTIONS
 from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.name_patterns import OF_CHAPTER
 from lagrangian.check.reading.plain.ends import incomplete
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_words
 from lagrangian.check.reading.prose.conditions import IF
@@ -65,9 +66,8 @@ _LISTS = re.compile(r"\\(?:operatorname|mathrm)\{(?:atan2|min|max)\}|\\(?:min|ma
 _SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
-_OF_CHAPTER = r"(?:[IVX]{1,4}|[A-Z])\.\s?\d{1,2}[a-z]?"
 _NUMBER_BEFORE = re.compile(
-    rf"{_SPACE}\(\s*(?:\d{{1,3}}[a-z]?|{_OF_CHAPTER})\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL
+    rf"{_SPACE}\(\s*(?:\d{{1,3}}[a-z]?|{OF_CHAPTER})\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL
 )
 _LETTER_BEFORE = re.compile(
     rf"{_SPACE}(?:(?:[^\W\d_]{{2,12}}\.?\s+){{0,2}}(?:\d{{1,3}}[a-z]?|[a-h]|[ivx]{{1,4}})\s?\)[.:]?|\((?:i{{2,3}}|i?v|vi{{1,3}})\))"
@@ -91,7 +91,7 @@ _TAG_BEFORE = re.compile(
 )
 """The name of an equation in brackets, or of those that were added, apart from it: (E_x)+(E_u)\\quad& …"""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
-_NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{_OF_CHAPTER})\s*\)\Z")
+_NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
 _FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
 _ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")

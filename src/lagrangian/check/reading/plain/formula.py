@@ -12,6 +12,7 @@ from functools import partial
 from lark import Tree
 
 from lagrangian.check.reading.multiple_angles import is_multiple
+from lagrangian.check.reading.name_patterns import RAISED
 from lagrangian.check.reading.nodes import (
     Node,
     column,
@@ -321,7 +322,7 @@ class PlainParser(PlainCalls):
             digits = self.accept("number")
             exponent = "" if digits is None or (opened and not self.accept(")")) else digits.text
         else:
-            exponent = raised.text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")).lstrip("+")
+            exponent = raised.text.translate(RAISED).lstrip("+")
         if sign or exponent.startswith("-"):
             raise self.source.error(
                 f"{token.text} to a negative power can mean its inverse or its reciprocal",

@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import NAME, RAISED
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.prose.words import Words, function_of
@@ -15,9 +16,6 @@ from lagrangian.quantities.source import Source
 from lagrangian.quantities.units import joined, lookup
 from lagrangian.read.letters import key, undotted
 
-_LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
-_MARK = r"[\u0307\u0308\u20db\u20dc]"
-_NAME = rf"{_LETTER}{_MARK}*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]{_MARK}*)*"
 _TWO = r"\s*(?:(?:\^|\*\*)\s*2|²|2)"
 _PRIME = r"['’′″‴\"]"
 _DOT_PRODUCT = r"(?<=\s)\.(?=[ \t]{1,3}(?:∂|d)[ ]?(?![TVUWLDHℒ]\*?[ ]?/)[^\W\d]\w{0,24}[ ]?/[ ]?[∂d](?!t(?!\w)))"
@@ -26,16 +24,16 @@ _KINDS = [
     ("space", r"\s+"),
     ("ddt2", rf"d{_TWO}\s*/\s*\(?\s*dt{_TWO}\s*\)?(?!\w)"),
     ("ddt", r"d\s*/\s*dt(?!\w)"),
-    ("rate2", rf"d{_TWO}\s*(?P<of2>{_NAME})\s*/\s*dt{_TWO}(?!\w)"),
-    ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
+    ("rate2", rf"d{_TWO}\s*(?P<of2>{NAME})\s*/\s*dt{_TWO}(?!\w)"),
+    ("rate", rf"d\s*(?P<of1>{NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
     (
         "partial",
-        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}{_PRIME}{{0,2}}|[^\W\d]\w{{0,24}}))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){NAME}{_PRIME}{{0,2}}|[^\W\d]\w{{0,24}}))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
     ),
     ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
     ("fraction", r"[¼½¾⅐-⅞]"),
     ("star", r"T[₀-₉]*\*(?:[₀-₉]+|_\w+)?(?=\s*(?:[-+−–=),;]|\Z))"),
-    ("name", _NAME),
+    ("name", NAME),
     ("primes", rf"{_PRIME}+"),
     ("raised", r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
     ("power", r"\.?\^|\.?\*\*"),
@@ -63,12 +61,12 @@ _LONGEST = 24
 _MARKED = re.compile(rf"{_PRIME}(?!s\b)")
 _QUOTIENT = re.compile(r"[ \t]*/[ \t]*[(]?d")
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
-_WORD = re.compile(_NAME)
+_WORD = re.compile(NAME)
 _ENERGIES = frozenset("TVLDℒ")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
 _NUMBER = re.compile(r"(?<![\w.])(?>\d+)(?:\.\d*)?(?:[eE][+-]?\d+)?")
-_BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{_NAME})")
+_BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{NAME})")
 VARIATION = "δ"
 """The sign of virtual displacements and virtual work: δx, δW."""
 _VARIED = re.compile(rf"{VARIATION}?[^{VARIATION}]+|{VARIATION}")
@@ -80,9 +78,8 @@ _ARGUMENT = re.compile(r"(?:sin|cos|exp)[ ]?\(?[^()=\n]{0,40}\Z")
 MOST = 60
 """The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
-    rf"\s*(?P<name>{_NAME})\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
+    rf"\s*(?P<name>{NAME})\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
 )
-_RAISED = str.maketrans("¹²³⁴⁻⁺", "1234-+")
 _LISTS = frozenset(["atan2", "min", "max", "diff", "Derivative", "D", "Eq", "piecewise", "Matrix", "Piecewise"])
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
 _TIME = lookup("s").dimension  # type: ignore[union-attr]
@@ -305,7 +302,7 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
         unit = lookup(name) or lookup(next(iter(joined(name)), ""))  # Nms is N m s, all of them SI units
         own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
         below = below or "/" in match["by"]
-        power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
+        power = int(match["power"] or (match["raised"] or "1").translate(RAISED))
         if not sure and ((product and not below and power > 0) or _RATE.match(text, match.start("unit"))):
             break  # 2 m g with a mass m, 10 kg d²x/dt²
         if unit is None or unit.factor == 0 or (argument and name == "t") or (before == "" and match["by"].strip()):

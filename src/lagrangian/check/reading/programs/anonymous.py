@@ -12,15 +12,15 @@ import re
 from collections.abc import Callable
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 MOST = 40
 """The most such functions, and calls of one."""
 
-_NAME = r"[^\W\d]\w{0,23}+"
 _FUNCTION = re.compile(
-    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+"
-    rf"(?P<head>@\([ \t]*+(?P<given>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,8}})[ \t]*+\))"
+    rf"^[ \t]*+(?P<name>{IDENT})[ \t]*+=[ \t]*+"
+    rf"(?P<head>@\([ \t]*+(?P<given>{IDENT}(?:[ \t]*+,[ \t]*+{IDENT}){{0,8}})[ \t]*+\))"
     r"(?P<body>[^\n@\[\]{}:=%]{2,2000}+)(?=%|$)",
     re.MULTILINE,
 )

@@ -19,12 +19,12 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.characters import LATEX
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.programs.matrices import with_equations_in_comments, with_shown_matrices
 from lagrangian.check.reading.programs.sessions import carries
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.errors import Place
 
-_NAME = r"[^\W\d]\w{0,23}+"
 MOST, LONGEST = 200, 2_000
 """The most marks of one kind that are looked at, and the most characters of a comment in brackets."""
 
@@ -37,17 +37,17 @@ _PAIRED = re.compile(r"\$[^\n]*\$|\$(?![ \t]*$)|\\[A-Za-z]|^[ \t]*\$", re.MULTIL
 """How statements end in Maxima, and what dollar signs of LaTeX have about them."""
 _LABELLED = re.compile(r"^[ \t]*+(?:\(%[iot]\d{1,4}\)|\[%[iot]\d{1,4}\])", re.MULTILINE)
 """How Maxima numbers what is typed and what it answers."""
-_LIST = re.compile(rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
-_COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)
+_LIST = re.compile(rf"^[ \t]*+{IDENT}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
+_COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{IDENT})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)
 _SHOWN = re.compile(
-    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
+    rf"^[ \t]*+(?P<name>{IDENT})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
 )
 _SHOWN_OF_TIME = re.compile(
-    rf"^[ \t]*+(?P<name>{_NAME})\(t\)[ \t]*+=[ \t]*+\n(?:[ \t]*+\n){{0,3}}(?=(?P<states>[^\n=]*+=)?[^\n]*\S)",
+    rf"^[ \t]*+(?P<name>{IDENT})\(t\)[ \t]*+=[ \t]*+\n(?:[ \t]*+\n){{0,3}}(?=(?P<states>[^\n=]*+=)?[^\n]*\S)",
     re.MULTILINE,
 )
 """What MATLAB shows of a function of time: eq1(t) = ⏎ a == b."""
-_SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))", re.MULTILINE)
+_SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={IDENT}[ \t]*+=(?!=))", re.MULTILINE)
 """The structure of a solution: S.dds = …"""
 _NUMBERED = re.compile(
     r"^[ \t>]*+(?:eq|Eq|EQ|equation|ode|de|gl|EL|EOM|eom)[a-z]{0,9}[\[(]\d{1,2}[\])][ \t]*+:?=[ \t]*+(?=[^\n=]*=|Eq\()",
@@ -55,7 +55,7 @@ _NUMBERED = re.compile(
 )
 """An entry of a list of equations: eq[1] := a = b."""
 _ANSWERED = re.compile(
-    rf"^[ \t]*+>>[ \t]*+(?:[a-z]{{4,16}}\()?(?:{_NAME}\.)?(?P<name>{_NAME})\)?[ \t]*+\n\s{{0,9}}ans[ \t]*+=(?=\s)",
+    rf"^[ \t]*+>>[ \t]*+(?:[a-z]{{4,16}}\()?(?:{IDENT}\.)?(?P<name>{IDENT})\)?[ \t]*+\n\s{{0,9}}ans[ \t]*+=(?=\s)",
     re.MULTILINE,
 )
 """What MATLAB answers to the name of a quantity: simplify(S.xdd) ⏎ ans = …"""
@@ -75,7 +75,7 @@ _SOLVES = re.compile(
 _SIGN = re.compile(r"[#%]|//(?=\s)")
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
 _FIELD = re.compile(
-    rf"(?<![\w.)\]])(?!(?:i\.e|e\.g|d\.h|z\.B|u\.a|s\.o|s\.u)\.)(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])"
+    rf"(?<![\w.)\]])(?!(?:i\.e|e\.g|d\.h|z\.B|u\.a|s\.o|s\.u)\.)(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{IDENT})(?![\w(])"
 )
 
 

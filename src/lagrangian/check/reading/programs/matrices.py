@@ -17,17 +17,17 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
 from lagrangian.check.reading.programs.sessions import MOST, closes
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
-_NAME = r"[^\W\d]\w{0,23}+"
 _WORD = r"[^\W\d]\w*"
 _RATE = rf"{_WORD}['’′]{{0,2}}"
 _CALL = r"(?:\w{1,8}\.)?(?:array|asarray|Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix)\("
 _ARRAY = re.compile(rf"(?<![\w.\\{{]){_CALL}(?=\s*+\[)")
-_MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
+_MATRIX = re.compile(rf"^[ \t]*+({IDENT})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
 _MARK = re.compile(
     r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)"
     r"|(?<=[\w)\]'])(?P<row>[ \t]*+(?:%[^\n]*+)?\n[ \t]*+(?=[\w(\[-]))"
@@ -36,29 +36,29 @@ _MATLAB = re.compile(r"^[ \t]*+function[ \t]|=[ \t]*+@\(", re.MULTILINE)
 """A function of MATLAB, in which the end of a line ends a row of a matrix."""
 _FACTOR = r"[^\W\d]\w{0,23}+|\([^()\n=]{1,200}\)"
 _SOLVED = re.compile(
-    rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}}(?:[ \t]*+,[ \t]*+{_NAME}){{0,8}})[ \t]*+=[ \t]*+(?:"
-    rf"(?:(?:\w{{1,6}}\.){{0,3}}solve\([ \t]*+|(?=\w{{1,24}}\.LUsolve))(?P<of>{_NAME})(?:[ \t]*+,|\.LUsolve\()"
+    rf"(?<![\w.])(?P<left>{IDENT}['’′]{{0,2}}(?:[ \t]*+,[ \t]*+{IDENT}){{0,8}})[ \t]*+=[ \t]*+(?:"
+    rf"(?:(?:\w{{1,6}}\.){{0,3}}solve\([ \t]*+|(?=\w{{1,24}}\.LUsolve))(?P<of>{IDENT})(?:[ \t]*+,|\.LUsolve\()"
     r"[ \t]*+(?P<by>(?:[^()\n=;,]|\([^()\n=;]{0,80}\)){1,200})\)"
-    rf"|(?:(?:\w{{1,6}}\.){{0,3}}inv\([ \t]*+(?P<inverse>{_NAME})[ \t]*+\)|(?P<own>{_NAME})\.inv\(\))"
+    rf"|(?:(?:\w{{1,6}}\.){{0,3}}inv\([ \t]*+(?P<inverse>{IDENT})[ \t]*+\)|(?P<own>{IDENT})\.inv\(\))"
     rf"[ \t]*+[@*][ \t]*+(?P<factor>{_FACTOR})"
     r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
     re.MULTILINE,
 )
 _DIVIDED = re.compile(
-    rf"^(?P<indent>[ \t]*+)(?P<left>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME})[ \t]*+\\[ \t]*+"
-    rf"(?P<by>{_NAME}|\((?:[^()\n=]|\([^()\n=]{{0,80}}\)){{1,300}}\))(?=[ \t]*+(?:$|[;%]))",
+    rf"^(?P<indent>[ \t]*+)(?P<left>{IDENT})[ \t]*+=[ \t]*+(?P<of>{IDENT})[ \t]*+\\[ \t]*+"
+    rf"(?P<by>{IDENT}|\((?:[^()\n=]|\([^()\n=]{{0,80}}\)){{1,300}}\))(?=[ \t]*+(?:$|[;%]))",
     re.MULTILINE,
 )
 """A column divided by a matrix from the left, as in MATLAB."""
 _RETURNED = re.compile(
-    rf"^(?P<before>[ \t]*+)return[ \t]++(?=(?:(?:\w{{1,6}}\.){{0,3}}(?:solve|inv)\(|{_NAME}\.(?:inv|LUsolve)\())",
+    rf"^(?P<before>[ \t]*+)return[ \t]++(?=(?:(?:\w{{1,6}}\.){{0,3}}(?:solve|inv)\(|{IDENT}\.(?:inv|LUsolve)\())",
     re.MULTILINE,
 )
 """What returns the accelerations for which it solves: return np.linalg.solve(M, f)."""
 _JULIA = re.compile(r"\bModelingToolkit\b|\bDifferential\(|@(?:variables|parameters|mtkmodel)\b|(?<!\w)D\(D\(")
 _EQUATES = re.compile(r"(?<=\S)[ \t]+~[ \t]+(?=\S)")
 """The sign of an equation of Julia, also in a list."""
-_SHOWN = re.compile(rf"[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+\Z")
+_SHOWN = re.compile(rf"[ \t]*+(?P<name>{IDENT})[ \t]*+=[ \t]*+\Z")
 _BRACKETED = re.compile(r"[ \t]*+(?P<open>\[)[^\[\]=]*+(?P<close>\])[ \t]*+\Z")
 _ENTRY = re.compile(r"[ \t]++(?![+*/^)]|-[ \t])[^\[\]{}=%#>;]*[^\s\[\]{}=%#>;+*/^(-][ \t]*+\Z")
 _ENDS = re.compile(r"[ \t]*+(?:$|[#%]|>>)")
@@ -70,7 +70,7 @@ _CUT = re.compile(
 )
 _ARGUMENTS = re.compile(r"(?<!\w)(?P<of>[^\W\d]\w{0,23})\((?P<by>[\w ,'’′]{1,40})\)")
 _COLUMN = re.compile(
-    rf"(?:(?:the|states?|vector|column)[ \t]++){{0,3}}(?P<name>{_NAME})[ \t]*+=[ \t]*+"
+    rf"(?:(?:the|states?|vector|column)[ \t]++){{0,3}}(?P<name>{IDENT})[ \t]*+=[ \t]*+"
     r"[\[(](?P<entries>[\w ,;'’′]{3,200})[\])](?:\.?['’]|\^T|ᵀ)?"
 )
 _BY_TIME = re.compile(r"(?<!\w)d(?P<of>[^\W\d_]\w{0,11}?)(?:/|_)?dt(?!\w)")

@@ -14,48 +14,48 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import chain, islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
-_NAME = r"[^\W\d]\w{0,23}+"
 MOST, LONGEST = 60, 4_000
 """The most comments, rates and calls that are looked at, and the longest call in several lines."""
 
-_LIST = rf"{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+"
+_LIST = rf"{IDENT}(?:[ \t]*+,[ \t]*+{IDENT}){{0,15}}+"
 _DECLARED = re.compile(
     rf"^[ \t]*+(?P<names>{_LIST})[ \t]*+=[ \t]*+(?:\w{{1,6}}\.)?(?:symbols|dynamicsymbols|var|Symbol|Function)"
     r"\([ \t]*+(?P<quote>['\"])(?P<called>[\w ,]{1,400}+)(?P=quote)(?![ \t]*+,[ \t]*+\d)[^\n]*+$",
     re.MULTILINE,
 )
 _FUNCTION = re.compile(
-    rf"(?:^|;)[ \t]*+(?P<names>{_NAME})[ \t]*+=[ \t]*+(?:\w{{1,6}}\.)?Function"
+    rf"(?:^|;)[ \t]*+(?P<names>{IDENT})[ \t]*+=[ \t]*+(?:\w{{1,6}}\.)?Function"
     r"\([ \t]*+['\"](?P<called>\w{1,24})['\"][ \t]*+\)(?:\(t\))?",
     re.MULTILINE,
 )
-_OF_TIME = re.compile(rf"(?<!\w)(?P<name>{_NAME})\[t_\][ \t]*+:?=(?!=)")
+_OF_TIME = re.compile(rf"(?<!\w)(?P<name>{IDENT})\[t_\][ \t]*+:?=(?!=)")
 """A function of Mathematica: y[t_] := Y Sin[w t]."""
 _CALL = re.compile(r"(?<!\w)Eq\w{0,6}\(")
 _RATE_OF = re.compile(r"(?<!\w)d(?P<two>2|\^2|²)?_?(?P<of>[^\W\d_]\w{0,20}?)_?dt(?(two)_?\^?2)(?=[ \t]*+=(?!=))")
 _RATE = re.compile(r"^[ \t]*+(?P<rate>d_?(?P<of>[^\W\d_]\w{0,20}))(?=[ \t]*+=(?!=)[ \t]*+[^ \t\[])", re.MULTILINE)
 _COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
 _IS = r"(?:=|:=|:|is|are|denotes|means|stands[ ]for|<-|->)"
-_VALUE = rf"d[ ]?{_NAME}[ ]?/[ ]?dt|der\({_NAME}\)|{_NAME}['’′]{{0,2}}"
+_VALUE = rf"d[ ]?{IDENT}[ ]?/[ ]?dt|der\({IDENT}\)|{IDENT}['’′]{{0,2}}"
 _OF_LIST = rf"their[ ](?:rates|velocities|speeds|derivatives)|{_VALUE}(?:[ ]?,[ ]?(?:{_VALUE}))*"
 _SAID = re.compile(
     rf"(?<![\w.])(?P<new>{_LIST})[ \t]*+{_IS}[ \t]*+(?:the[ ]|rate[ ]of[ ])*(?P<own>{_OF_LIST})(?![\w(^*/+-]|[ ]*{_IS})"
 )
 _NAMES_RATE = re.compile(
-    rf"(?<![\w.*/^+-])(?P<own>d[ ]?{_NAME}[ ]?/[ ]?dt|der\({_NAME}\)|{_NAME}['’′]{{1,2}})[ \t]*+(?:=|:=|->)[ \t]*+"
-    rf"(?P<new>{_NAME})(?=[ \t]*+(?:[.,;]|$|(?:and|und)\b))"
+    rf"(?<![\w.*/^+-])(?P<own>d[ ]?{IDENT}[ ]?/[ ]?dt|der\({IDENT}\)|{IDENT}['’′]{{1,2}})[ \t]*+(?:=|:=|->)[ \t]*+"
+    rf"(?P<new>{IDENT})(?=[ \t]*+(?:[.,;]|$|(?:and|und)\b))"
 )
 """A rate and the name for it: x' = v."""
 _FORMULA = re.compile(
-    rf"^[ \t]*+(?P<mark>[#%]+|//)[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+"
+    rf"^[ \t]*+(?P<mark>[#%]+|//)[ \t]*+(?P<name>{IDENT})[ \t]*+=[ \t]*+"
     r"(?P<value>[^=\n]{1,200}?)(?P<words>[ \t]{2,9}[^\W\d_][^=\n]{0,200})?$",
     re.MULTILINE,
 )
 """A definition that stands in a comment alone."""
-_DERIVED = re.compile(rf"d[ ]?(?P<of>{_NAME})[ ]?/[ ]?dt|der\((?P<in>{_NAME})\)")
+_DERIVED = re.compile(rf"d[ ]?(?P<of>{IDENT})[ ]?/[ ]?dt|der\((?P<in>{IDENT})\)")
 
 
 def with_program_names(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -81,8 +81,8 @@ def with_declared(written: TracedText, taken: Callable[[str], bool]) -> TracedTe
 def _declared(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
     """The statements in the place of declarations whose names differ from what is declared."""
     for match in (*_DECLARED.finditer(text), *_FUNCTION.finditer(text)):
-        names = re.findall(_NAME, match["names"])
-        called = re.findall(_NAME, match["called"])
+        names = re.findall(IDENT, match["names"])
+        called = re.findall(IDENT, match["called"])
         pairs = [(a, b) for a, b in zip(names, called, strict=False) if a != b and taken(b) and not taken(a)]
         if len(names) == len(called) and pairs:
             yield *match.span(), "\n" + "; ".join(f"{a} = {b}" for a, b in pairs)
@@ -118,7 +118,7 @@ def _commented(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
         above: list[str] = []
         said = comment["said"]
         for match in islice(chain(_SAID.finditer(said), _NAMES_RATE.finditer(said)), MOST):
-            new = re.findall(_NAME, match["new"])
+            new = re.findall(IDENT, match["new"])
             own = [_DERIVED.sub(lambda m: f"{m['of'] or m['in']}'", x.strip()) for x in match["own"].split(",")]
             if own[0].startswith("their "):
                 own = [f"{x}'" for x in above]
@@ -134,7 +134,7 @@ def _commented(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
             behind = text[text.rfind("\n", 0, comment.start()) + 1 : comment.start()].strip()
             yield *comment.span(), ("; " if behind else " ") + "; ".join(stated)
     for match in islice(_FORMULA.finditer(text), MOST):
-        names = re.findall(_NAME, re.sub(r"['’′]+", "", match["value"]))
+        names = re.findall(IDENT, re.sub(r"['’′]+", "", match["value"]))
         known = [taken(x) or function_of(x) is not None for x in names]
         if (
             any(map(taken, names))

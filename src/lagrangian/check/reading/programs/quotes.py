@@ -9,20 +9,20 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.traced_text import TracedText
 
-_NAME = r"[^\W\d]\w{0,23}+"
 _TEXT = r"(?:[bfru](?=[\"']['\"\w(\[\\]))?(?P<mark>\"|')(?P<said>(?:(?!(?P=mark))[^\n]){1,400}+)(?P=mark)"
 """A text in quotes. A letter before a mark is a prefix only if the text begins at once: r' + l θ' are two rates."""
 _QUOTED = re.compile(
-    rf"^(?P<indent>[ \t]*+)(?:(?P<quote>['\"]?)(?P<to>{_NAME})(?P=quote)[ \t]*+[=:][ \t]*+)?(?:\[[ \t]*+)?"
+    rf"^(?P<indent>[ \t]*+)(?:(?P<quote>['\"]?)(?P<to>{IDENT})(?P=quote)[ \t]*+[=:][ \t]*+)?(?:\[[ \t]*+)?"
     rf"(?P<call>(?:\w{{1,8}}\.)?(?:sympify|parse_expr|str2sym|S|sym|print|disp)\([ \t]*+)?{_TEXT}"
     r"(?(call)[^()\n]{0,60}\))[ \t]*+[;,\]]{0,2}+(?P<end>[ \t]*+(?:[#%][^\n]*+)?$)",
     re.MULTILINE,
 )
 """A line that is a text in quotes, perhaps behind a name."""
 _LISTED = re.compile(
-    rf"^(?P<indent>[ \t]*+)(?:{_NAME}[ \t]*+=[ \t]*+)?[\[({{][ \t]*+(?P<texts>['\"][^\n]{{1,2000}}['\"])"
+    rf"^(?P<indent>[ \t]*+)(?:{IDENT}[ \t]*+=[ \t]*+)?[\[({{][ \t]*+(?P<texts>['\"][^\n]{{1,2000}}['\"])"
     r"[ \t]*+[\])}];?[ \t]*+$",
     re.MULTILINE,
 )

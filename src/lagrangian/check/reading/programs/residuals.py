@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.programs.session_lists import entries_in
 from lagrangian.check.reading.programs.sessions import MOST, carries, closes, pieces
@@ -18,21 +19,20 @@ from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.records import dataclass
 
-_NAME = r"[^\W\d]\w{0,23}+"
 _COMMENT = re.compile(r"(?:[#%]|//(?=\s))[^\n]*+")
 _CONTINUED = re.compile(r"(?:\.{3}|\\)[ \t]*+\n|(?<=\S)\n(?=[ \t]*+[-+*/=])")
 """The end of a line on which a statement is not complete."""
-_LABEL = re.compile(rf"(?P<name>{_NAME})(?:[(\[]\d{{1,2}}[)\]])?[ \t]*+(?::?=)(?!=)[ \t]*+")
+_LABEL = re.compile(rf"(?P<name>{IDENT})(?:[(\[]\d{{1,2}}[)\]])?[ \t]*+(?::?=)(?!=)[ \t]*+")
 _WORD = re.compile(r"[^\W\d]\w*+")
 _STEM = re.compile(r"(?:_?\d{1,2}|_\w{1,12})\Z")
 _OPERATES = re.compile(r"[*/^+'’.·⋅×−-]")
 _OPERATOR = re.compile(r"[*/^+·⋅×−-]")
 _NUMBER = re.compile(r"(?<![\w.])\d++\Z")
 _ENDS = re.compile(r"\.(?:\s|\Z)")
-_CALLS = re.compile(rf"({_NAME})\(")
+_CALLS = re.compile(rf"({IDENT})\(")
 _FILLED = re.compile(r"[^=\n]{1,40}=[ \t]*+(?:(?:\w{1,8}\.)?zeros\([^=\n]*+|\[(?:0(?:\.0*)?)?\](?:[ \t]*+\*[^=\n]*+)?)")
 """A list that is made before its entries: res = zeros(2, 1)."""
-_HEADER = re.compile(rf"(?:function|def)[ \t](?:[ \t]*+(?P<out>{_NAME})[ \t]*+=)?")
+_HEADER = re.compile(rf"(?:function|def)[ \t](?:[ \t]*+(?P<out>{IDENT})[ \t]*+=)?")
 _ZERO = re.compile(r"(?<!\w)(?:[a-z]{0,4}solve\w{0,12}\(|root\(|Eq\()|={1,2}[ \t]*+0(?![\d.])", re.IGNORECASE)
 """What sets something to zero where it is used."""
 _LISTED = re.compile(r"[ \t]*+(?:\w{1,8}\.)?(?:(?:array|Matrix)[ \t]*+\(\s*+)?\[")

@@ -16,12 +16,12 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import islice, pairwise
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.programs.sessions import MOST, carries, closes, is_acceleration, pieces
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
-_NAME = r"[^\W\d]\w{0,39}+"
 _LIST = re.compile(
-    rf"(?:(?P<name>{_NAME})[ \t]*+=(?!=)[ \t]*+)?"
+    rf"(?:(?P<name>{IDENT})[ \t]*+=(?!=)[ \t]*+)?"
     r"(?P<call>(?:(?:\w{1,8}\.)?(?:Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix|array)\(\s*+)?)"
     r"(?P<open>[\[{(])"
 )
@@ -30,7 +30,7 @@ _SOLVED = re.compile(r"(?:\\[ ,;:!]\s*+)?\\(?:ddot(?![a-z])|frac\s?\{d\^)[^:=]{1
 """A second derivative in LaTeX and a colon, as SymPy prints a solution."""
 _SIDE = re.compile(r"\s*+={1,2}\s*+\{")
 _KEY = re.compile(
-    rf"(?:(?P<quote>['\"])(?P<name>[^\"\n:]{{1,60}}?)(?P=quote)|(?P<bare>{_NAME}))[ \t]*+:(?!=)\s*+(?=\S)"
+    rf"(?:(?P<quote>['\"])(?P<name>[^\"\n:]{{1,60}}?)(?P=quote)|(?P<bare>{IDENT}))[ \t]*+:(?!=)\s*+(?=\S)"
 )
 """The name of an entry in a dictionary of Python or JSON."""
 _SHOWN = re.compile(
@@ -38,8 +38,8 @@ _SHOWN = re.compile(
 )
 """What a solution is of, and a colon or an arrow."""
 _NAMED_RATE = re.compile(
-    rf"(?:{_NAME}(?:\(t\))?['’′]|Derivative\({_NAME}\(t\),[ ]?t\))"
-    rf"[ \t]*+(?:->|:)\s*+{_NAME}(?:\(t\))?"
+    rf"(?:{IDENT}(?:\(t\))?['’′]|Derivative\({IDENT}\(t\),[ ]?t\))"
+    rf"[ \t]*+(?:->|:)\s*+{IDENT}(?:\(t\))?"
 )
 """A rate and the name that an answer has for it: x': v."""
 _OF_POINT = re.compile(r"(?:a|γ|gamma|acc)(?:_\w{1,8}|\d|[A-Z]|\Z)")

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass
@@ -21,7 +22,6 @@ from lagrangian.records import dataclass
 MOST, LONGEST = 400, 6_000
 """The most statements of a session, and the most characters of one that goes on over several lines."""
 
-_NAME = r"[^\W\d]\w{0,39}+"
 _PROMPT = re.compile(
     r"(?P<before>(?:^|(?<=[^\S \t])|(?<=\S[ \t]))[ \t]*+|(?<=[ \t]))"  # each blank is looked at once
     r"(?:In|Out)[ \t]?\[\d{1,4}\](?://\w{1,20}+)?[ \t]*+(?::?=|:)?[ \t]*+"
@@ -32,7 +32,7 @@ _PROMPT = re.compile(
     re.MULTILINE,
 )
 _NAME_ALONE = re.compile(
-    rf"^[ \t]*+(?:In[ \t]?\[\d{{1,4}}\][ \t]*+:?=?|>>>|julia>|sage:)[ \t]*+{_NAME};?[ \t]*+$", re.MULTILINE
+    rf"^[ \t]*+(?:In[ \t]?\[\d{{1,4}}\][ \t]*+:?=?|>>>|julia>|sage:)[ \t]*+{IDENT};?[ \t]*+$", re.MULTILINE
 )
 """A name behind a prompt, which only shows what it is."""
 _TYPED_LAST = re.compile(r"^[ \t]*+\.\.\.:?(?:[ \t][^\n]*+)?\n(?=[ \t]*+[^\s.])", re.MULTILINE)
@@ -46,25 +46,25 @@ _MAGIC = re.compile(
 )
 """Commands to a notebook, and declarations in Julia: @variables x(t) s(t)."""
 _CALLED = re.compile(
-    rf"(?:\[?(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)\]?[ \t]*+=(?!=)[ \t]*+)?"
-    rf"(?P<of>(?:{_NAME}\.){{0,4}}+)(?P<name>{_NAME})(?P<open>[(\[])"
+    rf"(?:\[?(?P<to>{IDENT}(?:[ \t]*+,[ \t]*+{IDENT}){{0,15}}+)\]?[ \t]*+=(?!=)[ \t]*+)?"
+    rf"(?P<of>(?:{IDENT}\.){{0,4}}+)(?P<name>{IDENT})(?P<open>[(\[])"
 )
 _APPLIED = re.compile(
-    rf"(?:{_NAME}[ \t]*+=(?!=)[ \t]*+)?(?P<first>{_NAME})[ \t]*+(?:/@|@@?|//)[ \t]*+(?P<second>{_NAME})\Z"
+    rf"(?:{IDENT}[ \t]*+=(?!=)[ \t]*+)?(?P<first>{IDENT})[ \t]*+(?:/@|@@?|//)[ \t]*+(?P<second>{IDENT})\Z"
 )
 """How Mathematica applies a function without brackets: TeXForm /@ eqs, eqs // Simplify."""
 _EXPRESSION = re.compile(r"(?:[\w\s()+\-*/^,'’′]|\.(?=\d|[a-z]{1,12}\())++")
-_CALLS = re.compile(rf"(?<!\w)(?P<name>{_NAME})\(")
+_CALLS = re.compile(rf"(?<!\w)(?P<name>{IDENT})\(")
 """An expression without lists, words and parts of objects, and what is called in it."""
 _LOOP = re.compile(r"(?:for|while|if|with)[ \t][^:\n]{1,200}:(?P<body>[^\n]*+)")
 _STRING = re.compile(r"(?<=[(\[,=])[ \t]*+[bfru]?(?P<mark>['\"])[^'\"\n]{0,200}+(?P=mark)(?=[ \t]*+[,)\]:])")
 _DECLARES = re.compile(
-    rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+(?:\w{{1,8}}\.)?Function"
+    rf"(?P<name>{IDENT})[ \t]*+=[ \t]*+(?:\w{{1,8}}\.)?Function"
     r"\([ \t]*+['\"](?P<called>\w{1,24}+)['\"][^()\n]{0,60}+\)"
     r"[ \t]*+\([ \t]*+t[ \t]*+\)"
 )
 """A function of time that has the name with which it is declared: y = Function('y')(t)."""
-_KEYWORD = re.compile(rf"[(,]\s*+{_NAME}[ \t]*+(?:=(?!=)|->)")
+_KEYWORD = re.compile(rf"[(,]\s*+{IDENT}[ \t]*+(?:=(?!=)|->)")
 _HUMPED = re.compile(r"(?:[A-Z][a-z]{1,20}){2,6}[A-Z]?|[a-z]{2,20}(?:_[a-z]{2,20}){1,5}")
 _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]|\bd2(?=[^\W\d])"
@@ -76,7 +76,7 @@ _ACCELERATES = re.compile(
 _BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")
-_SHOWN = rf"(?:\w{{1,20}}\()?(?P<name>{_NAME})(?:\[\d\])?(?:\.\w{{1,20}}\(\))?\)?"
+_SHOWN = rf"(?:\w{{1,20}}\()?(?P<name>{IDENT})(?:\[\d\])?(?:\.\w{{1,20}}\(\))?\)?"
 _NAME_IS_ZERO = re.compile(
     rf"Eq(?:uality)?\([ \t]*{_SHOWN}[ \t]*,[ \t]*0(?:[ \t]*,[ \t]*evaluate[ \t]*=[ \t]*False)?[ \t]*\)|"
     rf"{_SHOWN.replace('<name>', '<other>')}[ \t]*==[ \t]*0"

@@ -15,17 +15,17 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice, pairwise
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.programs.sessions import MATHEMATICAL, MOST, Piece, carries, closes, is_program, pieces
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import SPELLED
 
-_NAME = r"[^\W\d]\w{0,39}+"
 _LABEL = re.compile(r"^[ \t]*+[(\[]%(?P<kind>[io])(?P<number>\d{1,4})[)\]]", re.MULTILINE)
 _MATRIX = re.compile(r"(?<!\w)matrix\((?=\s*\[)")
 _SHOWS = re.compile(r"[^\n=:]{1,80};[ \t]*+$", re.MULTILINE)
 """What only shows something: eq1;"""
-_ASSIGNS = re.compile(rf"\s*+(?P<name>{_NAME})(?P<sign>[ \t]*+:)(?!=)")
+_ASSIGNS = re.compile(rf"\s*+(?P<name>{IDENT})(?P<sign>[ \t]*+:)(?!=)")
 _CONSTANT = re.compile(
     rf"(?:(?<=[(\[,*/^+=:-])|(?<=[(\[,*/^+=:-][ ]))%(?P<name>pi|e|i|{'|'.join(SPELLED.values())})(?!\w)"
 )
@@ -34,23 +34,23 @@ _SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|[(\[]%i\d|In[ \t]?\[\d)", re.MULT
 _MAPLE = re.compile(r"^[ \t]*+>[ \t][^\n]*+$", re.MULTILINE)
 _TYPED = re.compile(r"^[ \t]*+>[ \t]++(?P<said>[^\n#]*?;[ \t]*+(?:#[^\n]*+)?$)", re.MULTILINE)
 """A statement of Maple behind its prompt."""
-_OPENED = re.compile(rf"^(?P<prompt>[ \t]*+>[ \t]++)(?:{_NAME}[ \t]*+=[ \t]*+)?[\[{{(]", re.MULTILINE)
+_OPENED = re.compile(rf"^(?P<prompt>[ \t]*+>[ \t]++)(?:{IDENT}[ \t]*+=[ \t]*+)?[\[{{(]", re.MULTILINE)
 _PROMPT = re.compile(r"^[ \t]*+>[ \t]++", re.MULTILINE)
 """A prompt of Maple, and a list behind one that goes on over lines with and without prompts."""
 _ENDS = re.compile(
-    rf"(?<=[^\s:]):(?=[ \t]*+(?:$|#|{_NAME}(?:\([^()\n]{{0,80}}\))?[ \t]*+=|(?:read|with|lprint|print)\b))"
+    rf"(?<=[^\s:]):(?=[ \t]*+(?:$|#|{IDENT}(?:\([^()\n]{{0,80}}\))?[ \t]*+=|(?:read|with|lprint|print)\b))"
 )
 _READS = re.compile(r"[ \t>]*+(?:restart|read[ \t]++[\"'`]?[\w./\\-]{1,60}[\"'`]?|with[ \t]*+\([\w, \[\]]{1,60}\))\Z")
 _LOOP = re.compile(
     r"(?P<indent>[ \t]*+)for[ \t]++[\w, ()]{1,120}[ \t]in[ \t]++(?:[(\[{]|[\w.]{1,60}+[(\[:])[^\n]{0,200}:"
     r"[ \t]*+(?:#[^\n]*+)?\Z"
 )
-_TUPLE = re.compile(rf"(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{1,15}}+)[ \t]*+=(?!=)[ \t]*+")
-_TABLE = re.compile(rf"{_NAME}[ \t]*+=[ \t]*+(?:dict\([^\n]*+|\{{[^{{}}=:]{{1,200}}:[^{{}}=]*+\}})\Z")
+_TUPLE = re.compile(rf"(?P<names>{IDENT}(?:[ \t]*+,[ \t]*+{IDENT}){{1,15}}+)[ \t]*+=(?!=)[ \t]*+")
+_TABLE = re.compile(rf"{IDENT}[ \t]*+=[ \t]*+(?:dict\([^\n]*+|\{{[^{{}}=:]{{1,200}}:[^{{}}=]*+\}})\Z")
 _DEFINED = re.compile(
-    rf"[ \t>]*+(?P<name>{_NAME})\([ \t]*+(?P<by>{_NAME})[^()\n]{{0,80}}\)[ \t]*+=(?!=)(?P<body>[^\n]*+)"
+    rf"[ \t>]*+(?P<name>{IDENT})\([ \t]*+(?P<by>{IDENT})[^()\n]{{0,80}}\)[ \t]*+=(?!=)(?P<body>[^\n]*+)"
 )
-_TEMPLATE = re.compile(rf"[ \t>]*+{_NAME}\[(?P<given>[\w ,]{{1,80}}+)\][ \t]*+:?=(?!=)")
+_TEMPLATE = re.compile(rf"[ \t>]*+{IDENT}\[(?P<given>[\w ,]{{1,80}}+)\][ \t]*+:?=(?!=)")
 _CALL = re.compile(r"(?<![\w.\\])(?P<name>[^\W\d]\w{1,39}+)[(\[]")
 MOST_CALLS = 60
 """The most calls that are looked at in one statement."""

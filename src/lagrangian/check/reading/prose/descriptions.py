@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from lagrangian.check.reading.name_patterns import WORD_LETTER
 from lagrangian.check.reading.prose.levels import is_level
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, is_common, is_prose, is_word
@@ -147,7 +148,7 @@ def says_nothing(text: str, words: Words) -> bool:
     units = _UNITS.fullmatch(text)
     if _DONE_TO_ALL.match(text) or (units is not None and not words.is_name(units["name"])):
         return True
-    listed = re.findall(r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]+(?:['’-][^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]+)*", text)
+    listed = re.findall(rf"{WORD_LETTER}+(?:['’-]{WORD_LETTER}+)*", text)
     spoken = [is_common(x, words) or is_word(x, words) for x in listed]
     sentence = "=" not in text and sum(spoken) > 1 and all(spoken[:2])
     if not sentence and (_SIGNS.search(text) or not any(is_word(x, words) for x in listed)):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.check.reading.name_patterns import RATE_OR_NAME
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import is_word
 
-_NAMED = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞](?>[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*)['’′″]{0,3}(?:\^2|²)?"
-_LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
-_LEVEL_IN_WORDS = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0[ \t]++[^\W\d_][^\W\d_][^\n;=+*/^()\d]{{0,80}}")
+_LEVEL = re.compile(rf"\s*+(?P<name>{RATE_OR_NAME})\s*+=\s*+0\s*+[.,;]?\s*+")
+_LEVEL_IN_WORDS = re.compile(rf"\s*+(?P<name>{RATE_OR_NAME})\s*+=\s*+0[ \t]++[^\W\d_][^\W\d_][^\n;=+*/^()\d]{{0,80}}")
 _PLACES = "up|at|for|when|where|with|while|if|is|means|in|on|along|bei|im|für|wenn|wo|mit|ist|heißt|à|au"
 _PLACED = re.compile(rf"=\s*0\s+(?:(?:{_PLACES})\b|(?P<word>[^\W\d_]{{4,24}})(?=[\s.,;]|$))")
 _ENERGIES = frozenset(["V", "U", "Epot", "E_pot", "Ep", "E_p"])

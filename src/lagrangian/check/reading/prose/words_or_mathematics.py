@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.reading.markup import before_factor, blank
+from lagrangian.check.reading.name_patterns import BARE_NAME, RATE_OR_NAME, WORD_LETTER
 from lagrangian.check.reading.prose.words import Words, function_of
 
 _REMARK = re.compile(r"(?<!\S)\(([^\W\d_][^()=+*/^\n]*)\)")
@@ -17,14 +18,13 @@ _RELATIVE = re.compile(
 """A quantity that is counted from something else than the one of the same name: v_disc (rel. to the cart) = …"""
 _ON_THE_LEFT = re.compile(r"^[ \t]*+([^\W\d]\w{0,23}+)(?:\^2|²)?[ \t]*+=", re.MULTILINE)
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
-_IDENTIFIER = re.compile(r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*")
-_LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
-_WORD = re.compile(rf"{_LETTER}+(?:['’-]{_LETTER}+)*")
+_IDENTIFIER = re.compile(BARE_NAME)
+_WORD = re.compile(rf"{WORD_LETTER}+(?:['’-]{WORD_LETTER}+)*")
 _TWO = re.compile(r"(?<!\w)([^\W\d_]{2,})(?=[ \t]([^\W\d_]{2,})(?![\w'’′(\[]))")
 _BRACKETS = re.compile(r"[()\n]")
 _SENTENCE = re.compile(
-    rf"\s*(?P<who>(?:I|[Ww]e|[Ii]ch|[Ww]ir)[ \t]+)?(?P<first>{_LETTER}{{3,}})"
-    rf"(?:[ \t]*[,:;]|[ \t]+(?P<second>{_LETTER}{{2,}})(?![\w(\[]))"
+    rf"\s*(?P<who>(?:I|[Ww]e|[Ii]ch|[Ww]ir)[ \t]+)?(?P<first>{WORD_LETTER}{{3,}})"
+    rf"(?:[ \t]*[,:;]|[ \t]+(?P<second>{WORD_LETTER}{{2,}})(?![\w(\[]))"
 )
 _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
@@ -40,14 +40,13 @@ _BEHIND = re.compile(r"[ \t]*(?:[.,;:!)]|\n|\Z)")
 """What stands behind a bracket that is no factor."""
 _GAP = re.compile(r"(?<=\S)[ ]{2,}\Z|\t[ \t]*\Z")
 _LINE_END = re.compile(r"[ \t]*[.,;]?[ \t]*(?:\n|\Z)")
-_FIRST_WORD = re.compile(rf"[ \t]*({_LETTER}{{5,24}})(?![\w'’′(\[])")
+_FIRST_WORD = re.compile(rf"[ \t]*({WORD_LETTER}{{5,24}})(?![\w'’′(\[])")
 """A word with which a remark in brackets begins; names of so many letters are rare."""
-_ONE = rf"{_LETTER}+(?:['’-]{_LETTER}+)*"
+_ONE = rf"{WORD_LETTER}+(?:['’-]{WORD_LETTER}+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
-_NAMED = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞](?>[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*)['’′″]{0,3}(?:\^2|²)?"
 _DEFINES = re.compile(
-    rf"\s*+(?P<words>(?:(?:[^\W_]|(?<=\w)[’'-](?=\w)){{1,20}}+[.,]?[ \t]++(?!=)){{1,16}}+)(?P<name>{_NAMED})"
+    rf"\s*+(?P<words>(?:(?:[^\W_]|(?<=\w)[’'-](?=\w)){{1,20}}+[.,]?[ \t]++(?!=)){{1,16}}+)(?P<name>{RATE_OR_NAME})"
     r"\s*+=(?![=>])"
 )
 """A name that is given a value behind words alone."""

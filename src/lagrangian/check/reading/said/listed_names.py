@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice, pairwise
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.check.reading.said.explained_names import is_formula
@@ -18,11 +19,10 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST = 60
 """The most names with a verb that are looked at."""
-_NAME = r"[^\W\d]\w{0,15}+"
 _HEAD = re.compile(
     r"(?:^[ \t]*+|(?<=[.,;:])[ \t]++|(?<![\w])(?=(?:here|where|with|and|hier|mit|wobei|und)[ \t]))"
     r"(?:(?:here|where|with|and|hier|mit|wobei|und)[ \t]++){0,2}"
-    rf"(?P<new>{_NAME})[ \t]++"
+    rf"(?P<new>{IDENT})[ \t]++"
     r"(?:(?P<verb>is[ \t]short[ \t]for|stands[ \t]for|steht[ \t]für)|(?P<for>for|für)"
     r"|(?:is|being|means|denotes|abbreviates|ist|bezeichnet))[ \t]++",
     re.MULTILINE | re.IGNORECASE,

@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import isclose, isnan, pi, prod
 
+from lagrangian.check.reading.name_patterns import BARE_NAME, RAISED
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.quantities.units import joined, lookup
 
-_NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
 _VALUE = re.compile(
-    rf"(?<![\w.])(?P<name>{_NAME})(?:\^\d|[²³])?+[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
+    rf"(?<![\w.])(?P<name>{BARE_NAME})(?:\^\d|[²³])?+[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
     r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:(?:[ \t]|[ ]?[/·*][ ]?)?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
@@ -28,13 +28,12 @@ _AGAIN = re.compile(
 )
 """A value that is given once more in another unit: e = 120 mm = 0.12 m."""
 _FACTOR = re.compile(
-    rf"(?:(?<![\w.])(?P<name>{_NAME})|(?<![\w.,^])\d{{1,6}}|\((?P<sum>[\w \t+*/·−-]{{1,40}})\))(?:\^\d|[²³])?"
+    rf"(?:(?<![\w.])(?P<name>{BARE_NAME})|(?<![\w.,^])\d{{1,6}}|\((?P<sum>[\w \t+*/·−-]{{1,40}})\))(?:\^\d|[²³])?"
     r"(?:[ ]?[*·/+−-])?[ ]?\Z"
 )
 """A factor or a term in front of a name: a name, a number or a sum in brackets."""
 _PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
 
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _RATE = re.compile(r"\w['’′″]++(?!s\b)|\bd\d?\w*+/d|[\u0307\u0308]|[ẋẍẏÿżṙṁ]|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
 """A rate or an acceleration, by which a part of an equation is known from words."""
 
@@ -43,7 +42,7 @@ FEWEST = 2
 
 
 _TEN = re.compile(
-    rf"(?P<head>(?<![\w.]){_NAME}[ \t]*+=[ \t]*+[-−]?)(?P<number>\d++(?:[.,]\d++)?+)[ \t]?[·×⋅*][ \t]?10"
+    rf"(?P<head>(?<![\w.]){BARE_NAME}[ \t]*+=[ \t]*+[-−]?)(?P<number>\d++(?:[.,]\d++)?+)[ \t]?[·×⋅*][ \t]?10"
     r"(?:(?:\^|\*\*)[({]?(?P<power>[-+−]?\d{1,2})[)}]?|(?P<raised>[⁻⁺]?[⁰¹²³⁴-⁹]{1,2}))(?![\d(^⁰¹²³⁴-⁹])"
 )
 """A value with a power of ten, perhaps with a unit behind it: k = 8·10⁶ N/m."""
@@ -55,7 +54,7 @@ def _with_exponents(text: str) -> str:
 
 
 def _power(match: re.Match[str]) -> str:
-    return (match["power"] or match["raised"].translate(_RAISED)).replace("−", "-")
+    return (match["power"] or match["raised"].translate(RAISED)).replace("−", "-")
 
 
 def without_values(text: str, values: Callable[[str], float | None], notes: dict[str, None]) -> str:
@@ -121,7 +120,7 @@ def _starts(line: str, found: Sequence[re.Match[str]], values: Callable[[str], f
     for match in found:
         start = match.start()
         while (factor := _FACTOR.search(line, max(least, start - 60), start)) is not None:
-            named = re.findall(_NAME, factor["name"] or factor["sum"] or "")
+            named = re.findall(BARE_NAME, factor["name"] or factor["sum"] or "")
             if any(values(x) is None and function_of(x) is None for x in named):
                 break
             start = factor.start()

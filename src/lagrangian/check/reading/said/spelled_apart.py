@@ -12,16 +12,16 @@ import re
 from collections.abc import Callable
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key
 
 MOST = 20
 """The most sentences that are looked at."""
-_NAME = r"[^\W\d]\w{0,15}+"
 _SAID = re.compile(
-    rf"(?:(?P<open>\()[ \t]{{0,4}}|(?<![\w'’′(]))(?:(?:where|with|here|and|mit|wobei|hier|und)[ \t]++)?(?P<new>{_NAME})"
+    rf"(?:(?P<open>\()[ \t]{{0,4}}|(?<![\w'’′(]))(?:(?:where|with|here|and|mit|wobei|hier|und)[ \t]++)?(?P<new>{IDENT})"
     r"[ \t]{0,8}(?:=|:=|(?<=[ \t])(?:is|means|stands[ \t]for|denotes|for|ist|bedeutet|bezeichnet|steht[ \t]für|für)"
-    rf"(?=[ \t]))[ \t]{{0,8}}(?P<own>{_NAME})(?P<close>[ \t]{{0,4}}\))?+(?=[ \t]*+(?:[.,;)\n]|\Z))",
+    rf"(?=[ \t]))[ \t]{{0,8}}(?P<own>{IDENT})(?P<close>[ \t]{{0,4}}\))?+(?=[ \t]*+(?:[.,;)\n]|\Z))",
 )
 """A name and what it stands for, with nothing behind that would be more of a formula."""
 _BEFORE = re.compile(r"(?:^|[.,;:(]|\b(?:where|with|here|and|mit|wobei|hier|und|write|I))[ \t]*+\Z")

@@ -18,49 +18,49 @@ import re
 from collections.abc import Callable, Sequence
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import SPELLED, key, undotted
 
-_NAME = r"[^\W\d]\w{0,15}+"
 MOST_VALUES = 20
 """The most values in comments that are looked at."""
 MOST_LETTERS = 3
 """The most letters of a product without signs in the value of a name."""
-_PAIR = rf"{_NAME}[ \t]*+=[ \t]*+{_NAME}"
+_PAIR = rf"{IDENT}[ \t]*+=[ \t]*+{IDENT}"
 _PAIRS = rf"{_PAIR}(?:[ \t]*+(?:,|;|and|und|et)[ \t]*+{_PAIR})*+"
 _COMMENT = re.compile(
     rf"(?P<mark>(?<!\\)[#%]|//)[ \t]*+(?P<said>{_PAIRS})[ \t]*+[.;]?[ \t]*+$",
     re.MULTILINE,
 )
 _COMMENTED = re.compile(
-    rf"^[ \t]*+(?P<mark>(?:[#%]+|//)[ \t]*+(?:(?:where|with|here|mit|wobei)[ \t]++)?)(?P<new>{_NAME})[ \t]*+="
+    rf"^[ \t]*+(?P<mark>(?:[#%]+|//)[ \t]*+(?:(?:where|with|here|mit|wobei)[ \t]++)?)(?P<new>{IDENT})[ \t]*+="
     r"[ \t]*+(?P<value>[^\n=]{3,200})$",
     re.MULTILINE,
 )
 """The value of a name on a line that is a comment: % where Delta = …"""
-_EACH = re.compile(rf"({_NAME})[ \t]*+=[ \t]*+({_NAME})")
+_EACH = re.compile(rf"({IDENT})[ \t]*+=[ \t]*+({IDENT})")
 _SENTENCE = re.compile(
-    rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{_NAME})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
-    rf"[ \t]++(?:the[ \t]|your[ \t]|den[ \t]|das[ \t])?(?P<open>\$?)(?P<own>\\?{_NAME})(?P=open)(?![\w(^'′$\\])"
+    rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{IDENT})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
+    rf"[ \t]++(?:the[ \t]|your[ \t]|den[ \t]|das[ \t])?(?P<open>\$?)(?P<own>\\?{IDENT})(?P=open)(?![\w(^'′$\\])"
 )
 _SHORT = re.compile(
-    rf"\([ \t]*+(?P<new>{_NAME})[ \t]++(?:is|means|stands[ \t]for|denotes|ist|bedeutet)[ \t]++(?P<own>{_NAME})[ \t]*+\)"
+    rf"\([ \t]*+(?P<new>{IDENT})[ \t]++(?:is|means|stands[ \t]for|denotes|ist|bedeutet)[ \t]++(?P<own>{IDENT})[ \t]*+\)"
 )
 """A letter of the system that is written otherwise: (a is alpha)."""
 
-_TERM = rf"{_NAME}(?:\([^()\n]{{1,40}}\))?['’′]{{0,2}}(?:\^\d)?"
+_TERM = rf"{IDENT}(?:\([^()\n]{{1,40}}\))?['’′]{{0,2}}(?:\^\d)?"
 _VALUE = rf"{_TERM}(?:[ \t]?[-+*/·][ \t]?{_TERM}){{0,8}}"
 _WHAT = r"(?:(?:the|a|an|den|die|das)[ \t](?:[^\W\d_]{3,20}[ \t]){1,3})?"
-_ONE = rf"{_NAME}[ \t]++(?:for|für)[ \t]++{_WHAT}{_VALUE}"
+_ONE = rf"{IDENT}[ \t]++(?:for|für)[ \t]++{_WHAT}{_VALUE}"
 _USED = re.compile(
     rf"(?<![\w\\])(?:use|used|using|write|wrote|writing|call|schreibe|nehme|verwende|benutze)[ \t]++"
     rf"(?P<said>{_ONE}(?:[ \t]*+(?:,[ \t]++(?:and|und)|,|and|und)\s++{_ONE})*+)(?![\w(^'′])"
 )
-_GOES_ON = re.compile(rf"[ \t]*+(?:[-+*/·^(\d√]|(?P<name>{_NAME}))")
+_GOES_ON = re.compile(rf"[ \t]*+(?:[-+*/·^(\d√]|(?P<name>{IDENT}))")
 """What stands behind a value: another part of it, if this is no word."""
-_FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++{_WHAT}({_VALUE})")
+_FOR = re.compile(rf"({IDENT})[ \t]++(?:for|für)[ \t]++{_WHAT}({_VALUE})")
 
 
 def with_stated_letters(
@@ -94,7 +94,7 @@ def with_stated_letters(
         if after is not None and (after["name"] is None or taken(after["name"])):
             continue  # I write A for J + 2 m; for J + l^2 m
         pairs = _FOR.findall(match["said"])
-        named = [[x for x in re.findall(_NAME, value) if function_of(x) is None] for _, value in pairs]
+        named = [[x for x in re.findall(IDENT, value) if function_of(x) is None] for _, value in pairs]
         if all(a and all(map(taken, a)) and not taken(new) for a, (new, _) in zip(named, pairs, strict=True)):
             edits.append((*match.span(), "; " + "; ".join(f"{new} = {value}" for new, value in pairs) + ";"))
     return written.edited(sorted(edits))
@@ -117,49 +117,49 @@ def _values_in_comments(text: str, taken: Callable[[str], bool]) -> list[Edit]:
 
 _WORD = r"[^\W\d_]{2,20}+"
 _VALUED = re.compile(
-    rf"(?<!\w)(?:with|where|let|and|mit|wobei|und|sei)[ \t]++(?P<new>{_NAME})[ \t]++"
+    rf"(?<!\w)(?:with|where|let|and|mit|wobei|und|sei)[ \t]++(?P<new>{IDENT})[ \t]++"
     r"(?:(?:is|be|being|denotes|ist)[ \t]++)?(?:the|an?|its|das|die|der|dem)[ \t]++"
     rf"(?P<words>(?:{_WORD}[ \t]++){{1,4}}?)"
     r"(?P<value>[^\s,;=]{0,60}[-+*/^·²³(][^,;=\n]{0,200}?)(?P<end>[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
     re.MULTILINE | re.IGNORECASE,
 )
 _IS_VALUE = re.compile(
-    rf"(?<!\w)(?:with|where|and|mit|wobei|und)[ \t]++(?P<new>{_NAME})[ \t]++(?:is|being|denotes|means|ist|bezeichnet)"
+    rf"(?<!\w)(?:with|where|and|mit|wobei|und)[ \t]++(?P<new>{IDENT})[ \t]++(?:is|being|denotes|means|ist|bezeichnet)"
     r"[ \t]++(?P<value>[^\n;:=]{0,60}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
-    rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t])))",
+    rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{IDENT}[ \t])))",
     re.MULTILINE | re.IGNORECASE,
 )
 """A name and its value: where N is -b theta' - m g L sin theta."""
 _IN_BRACKETS = re.compile(
-    rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|=|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
+    rf"(?<![\w.*/^+])(?P<new>{IDENT})(?:[ \t]*+(?::|=|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
     rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})"
-    rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
+    rf"\([ \t]*=?[ \t]*(?P<value>{IDENT}['’′]{{1,2}})[ \t]*\)"
 )
 """A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
 _EQUAL_IN_BRACKETS = re.compile(
-    rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
+    rf"(?<![\w.*/^+])(?P<new>{IDENT})(?:[ \t]*+(?::|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
     rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})\([ \t]*=[ \t]*(?P<value>[^()=,;\n]{{1,80}}?)[ \t]*\)"
 )
 """A name, what it is, and its value: w absolute rate of the panel (= dphi/dt + dpsi/dt)."""
 _BY_TIME = re.compile(r"(?<!\w)d[ ]?(?P<of>[^\W\d_]\w{0,15}?)[ ]?/[ ]?dt(?!\w)")
 _IS_RATE = re.compile(
-    rf"(?<![\w.*/^+=])(?P<new>{_NAME})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
-    rf"(?P<value>{_NAME}['’′]{{1,2}})(?=[ \t]*(?:[.,;:)]|$|and\b|und\b))",
+    rf"(?<![\w.*/^+=])(?P<new>{IDENT})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
+    rf"(?P<value>{IDENT}['’′]{{1,2}})(?=[ \t]*(?:[.,;:)]|$|and\b|und\b))",
     re.MULTILINE,
 )
 _BY = re.compile(
     r"(?<!\w)(?:denot(?:e|ing)|abbreviat(?:e|ing)|call(?:ing)?|writ(?:e|ing))[ \t]++(?P<value>[^,;:=\n]{3,80}?)"
-    rf"[ \t]++(?:by|as)[ \t]++(?P<new>{_NAME})(?![\w'’′(])",
+    rf"[ \t]++(?:by|as)[ \t]++(?P<new>{IDENT})(?![\w'’′(])",
     re.IGNORECASE,
 )
 _FOR_SUM = re.compile(
-    rf"(?<!\w)(?:with|mit|write|writing|using|abbreviating)[ \t]++(?:the[ \t]{_WORD}[ \t])?(?P<new>{_NAME})[ \t]++"
+    rf"(?<!\w)(?:with|mit|write|writing|using|abbreviating)[ \t]++(?:the[ \t]{_WORD}[ \t])?(?P<new>{IDENT})[ \t]++"
     r"(?:for|für)[ \t]++(?P<value>(?=[^,;:=\n]{0,60}?[-−+*/·²³^])[^\s,;:=][^,;:=\n]{1,100}?)"
     r"(?=[ \t]++(?:the|we|I|our|this|it|die|der|das|wird|ist|is|becomes?|gives?)[ \t]|[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
     re.MULTILINE | re.IGNORECASE,
 )
 """A name in the place of its value: With I for A + m l² the Lagrangian is …"""
-_LISTED = rf"{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}}"
+_LISTED = rf"{IDENT}(?:[ \t]*(?:,|and|und)[ \t]*{IDENT}){{0,7}}"
 _RATES = re.compile(
     rf"(?<![\w.*/^+])(?P<names>{_LISTED})[ \t]*"
     r"(?::|=|\bis\b|\bare\b|\bdenotes?\b)[ \t]*(?:the[ \t]+)?(?:(?:angular|linear|their|its)[ \t]+)?"
@@ -175,7 +175,7 @@ _STATES = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 _STATE = re.compile(
-    rf"{_NAME}['’′]{{0,2}}(?:[ \t]*=[ \t]*(?P<value>{_NAME}['’′]{{1,2}}))?(?:[ \t]*\([^()=]{{1,60}}\))?"
+    rf"{IDENT}['’′]{{0,2}}(?:[ \t]*=[ \t]*(?P<value>{IDENT}['’′]{{1,2}}))?(?:[ \t]*\([^()=]{{1,60}}\))?"
 )
 
 
@@ -249,7 +249,7 @@ def with_stated_rates(
     """
     edits: list[Edit] = []
     for match in _RATES.finditer(written.text):
-        names = [x for x in re.findall(_NAME, match["names"]) if x not in ("and", "und")]
+        names = [x for x in re.findall(IDENT, match["names"]) if x not in ("and", "und")]
         primes = "''" if match["rate"].lower().startswith(("acc", "second")) else "'"
         numbered = any(map(_number, coordinates)) and all(map(_number, names))
         of = [[c for c in coordinates if _number(c) == _number(x)] for x in names]
