@@ -18,6 +18,7 @@ from lagrangian.check.places import (
     AT_REST,
     ENDS_IN_ZERO,
     amplitudes,
+    gives_one_value,
     is_rate,
     only_places,
     place_or_approximation,
@@ -27,9 +28,10 @@ from lagrangian.check.places import (
     rests_without_rates,
     stands_still,
 )
-from lagrangian.check.reading.prose.places_said import AT
+from lagrangian.check.reading.prose.values_said import AT, START, STEADY, STILL
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of, zero_everywhere
+from lagrangian.check.said_cases import where_it_holds
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -43,6 +45,8 @@ UNITS = frozenset("mNJ")
 """Units in which an answer gives a value, and letters of systems."""
 ROUNDED = 0.005
 """By which part of its largest term a sum in rounded numbers may miss zero."""
+SPECIAL_MOTIONS = frozenset(["rest", "check", "case", "special", STILL, STEADY, START])
+"""What words say beside a line that is about some motions alone."""
 BELOW = "its sentence is about a special motion"
 
 
@@ -67,11 +71,14 @@ def beside(
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
     still = [x for x in wrong if complete and stands_still(truth, x.expr, x.text)]
     aside |= dict.fromkeys(map(id, still), "it is about one motion")
+    aside |= {id(x): why for x in wrong if complete and (why := _value_alone(truth, x))}
     aside |= values
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
     }
+    true = {id(x): where for x in wrong if complete and id(x) not in aside and (where := where_it_holds(truth, x))}
+    aside |= true
     others = [line for line in wrong if id(line) not in aside and (complete or line.beside)]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
@@ -84,7 +91,8 @@ def beside(
     if not complete and (len(left) < truth.n or all(id(line) in aside for line in wrong)):
         return lines, ()
     kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
-    told = [f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside]
+    told = [f"'{x.text}' is right {true[id(x)]}." for x in lines if id(x) in true]
+    told += [f"'{x.text}' was not judged: {aside[id(x)]}." for x in lines if id(x) in aside and id(x) not in true]
     untrue = [line for line in placed if id(line) not in aside and only_places(truth, line.expr)]
     told += [f"'{_once(line.text)}' is not true: neither of every motion nor of a position at rest." for line in untrue]
     return kept, tuple(text(note) for note in dict.fromkeys(told))
@@ -112,6 +120,15 @@ def _value(truth: Reference, line: AnsweredLine) -> str | None:
     return "it holds under its condition" if _is_of_place(truth, line) else None
 
 
+def _value_alone(truth: Reference, line: AnsweredLine) -> str | None:
+    """Why a line is not judged that only gives a time or a constant a value, or an acceleration in a special case."""
+    kind = gives_one_value(truth, line.expr, line.text)
+    if kind == "motion":
+        several = sum(x.startswith(AT) for x in line.near) > 1
+        return "it is about one motion" if several or (line.beside | line.near) & SPECIAL_MOTIONS else None
+    return None if kind is None else f"it is about one {kind}"
+
+
 def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a statement on a force or a position is right at rest, S = m g; with rates, where S was k δ + b δ′ above,
     only if words say that it is about rest."""
@@ -124,9 +141,9 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
 def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a statement holds at the position, or for the constant, that words in front of it say: at θ = 90°:
     ℓ = √(a² + b²); for n = 1: J = J1 + J2."""
-    said = [x.removeprefix(AT).partition(" = ") for x in line.beside if x.startswith(AT)]
+    said = [x.removeprefix(AT).partition(" = ") for x in line.near if x.startswith(AT)]
     own = (*truth.model.coordinates, *truth.model.parameters)
-    places = {x.symbol: _number(value) for x in own for name, _, value in said if x.name == name}
+    places = {x.symbol: _number(value) for x in own for name, _, value in said if x.name == name and _is_number(value)}
     if not places or line.expr.has(sp.Derivative) or not line.expr.has(*places):
         return False
     there = cast("sp.Expr", line.expr.xreplace(places))
@@ -143,6 +160,11 @@ def _is_rounded_zero(truth: Reference, expr: sp.Expr) -> bool:
     if not expr.free_symbols or not all(x.is_Float or x.is_Rational for x in terms):
         return False
     return bool(abs(sum(terms)) <= ROUNDED * max(abs(x) for x in terms))
+
+
+def _is_number(written: str) -> bool:
+    """Whether a value is a number, and no name."""
+    return written.lstrip("-")[:1].isdigit()
 
 
 def _number(written: str) -> sp.Expr:

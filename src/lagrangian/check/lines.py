@@ -39,7 +39,8 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
         told = (stated.kind, expr, number, stated.name, stated.text, beside, names, pushing)
         sides = None if stated.lhs is None else (sp.sympify(stated.lhs), sp.sympify(stated.rhs))
-        found.append(AnsweredLine(*told, sides, stated.summands, _words_around(stated.place, stated.text)))
+        words, near = _words_around(stated.place, stated.text), answer.near.get(number, frozenset())
+        found.append(AnsweredLine(*told, sides, stated.summands, words, near))
     return tuple(found)
 
 

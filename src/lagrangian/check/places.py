@@ -98,6 +98,28 @@ def stands_still(truth: Reference, expr: sp.Expr, written: str) -> bool:
     return len(held) > 1 and held <= rates and alone and ENDS_IN_ZERO.search(written) is not None
 
 
+def gives_one_value(truth: Reference, expr: sp.Expr, written: str) -> str | None:
+    """What a line only gives a number: a "time", t = 1 s, a "value of a constant", a "motion", θ″ = 0; else None."""
+    accelerations = {c.acceleration for c in truth.model.coordinates}
+    moving = expr.atoms(sp.Derivative, AppliedUndef)
+    found = expr.atoms(sp.Derivative) if moving else bounded.letters(expr)
+    if "=" not in written or len(found) != 1:
+        return None
+    (given,) = found
+    slope = expr.diff(given)
+    if not slope.is_number or not bounded.expand(expr - slope * given).is_number:
+        return None
+    if moving:
+        return "motion" if given in accelerations else None
+    return (
+        "time"
+        if given == time
+        else "value of a constant"
+        if given in {p.symbol for p in truth.model.parameters}
+        else None
+    )
+
+
 def relates_freedoms(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line only says that coordinates, or rates, which are independent, are proportional to each other by
     lengths and numbers: y = R φ, θ′ = −x′/R. No stiffness is in it, nor a mass: k1 x = k2 z is meant at rest."""

@@ -65,6 +65,8 @@ class AnsweredLine(Brief):
     """Its terms with their factors as they are written; see `reading.summands`."""
     words: str = field(default="", compare=False, repr=False)
     """The words around it in the same line: "velocity of the bob", "about the hinge"."""
+    near: frozenset[str] = field(default=frozenset(), repr=False)
+    """The values and kinds of motion of which it, or the lines above it, speak; see `reading.prose.values_said`."""
 
     @property
     def title(self) -> str:

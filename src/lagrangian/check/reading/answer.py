@@ -138,6 +138,8 @@ class Answer:
     """The names, in the form of `lagrangian.read.letters.key`, in parts that were not read and may explain them."""
     beside: Mapping[int, frozenset[str]] = field(default_factory=dict)
     """What words say of lines that may stand beside the equations, by number; see `side_remarks`."""
+    near: Mapping[int, frozenset[str]] = field(default_factory=dict)
+    """The values and kinds of motion that lines, or those above them, speak of, by number; see `prose.values_said`."""
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
     doubt: ParseError | None = field(default=None, repr=False, compare=False)
     """The error of parts that were not read and may say what names of the system mean: no reason to call it wrong."""

@@ -18,7 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import Node, has_matrix, names_in, only_name
-from lagrangian.check.reading.subjects import Subject
+from lagrangian.check.reading.subject import Subject
 from lagrangian.errors import ParseError
 from lagrangian.read.letters import key, undotted
 

@@ -59,7 +59,8 @@ from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.slopes_by_dots import sloped
-from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
+from lagrangian.check.reading.subject import Subject, is_label_of_equation, named_anew
+from lagrangian.check.reading.subjects import Subjects, bare_names
 from lagrangian.check.reading.summed_energies import PartsOfEnergies
 from lagrangian.errors import ParseError
 from lagrangian.model import Model, time
@@ -85,8 +86,7 @@ class Lines:
         """The errors of lines that matter only beside incomplete equations, and of those redefining a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
         """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
-        self.unread: set[str] = set()
-        """The names in parts of the answer that were not read."""
+        self.unread = set[str]()  # the names in parts of the answer that were not read
 
     def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
         """Return the lines of the statements, in their order; raise one error for all statements that cannot be read,
@@ -247,17 +247,17 @@ class Lines:
         return lines
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
-        value = reader.finite(value, side)
-        kind, name, lhs = subject.kind, subject.name, cast("sp.Expr | None", None)
+        subject, lhs = named_anew(subject, value := reader.finite(value, side)), cast("sp.Expr | None", None)
+        kind, name = subject.kind, subject.name
         if is_general(value) and kind == "Xi" and name is not None:
             return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
         if is_general(value):
             if (why := why_not_judged(value)) is not None:
                 self._not_judged(reader, why)  # L = T - V + λ (x² + y² - l²)
             return made_line("statement", None, value, name or kind, sides[0], side, reader)
-        if kind in ENERGIES and (given := self.subjects.parameter(sides[0], value)) is not None:
-            return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
+            if (given := self.subjects.parameter(sides[0], value)) is not None:
+                return made_line("given", None, value, given, sides[0], side, reader)
             self.names.stated[kind] = value
             if subject.token is not None and self.subjects.is_letter(subject):
                 self.names.define(subject.token, value)

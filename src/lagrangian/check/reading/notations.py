@@ -59,7 +59,8 @@ from lagrangian.check.reading.prose.intervals import without_intervals
 from lagrangian.check.reading.prose.leading_words import without_leading_words
 from lagrangian.check.reading.prose.relaxed import without_relaxed
 from lagrangian.check.reading.prose.remarks import without_legend
-from lagrangian.check.reading.references import without_references
+from lagrangian.check.reading.references import without_marks_of_terms, without_references
+from lagrangian.check.reading.said.at_the_start import with_start_alone
 from lagrangian.check.reading.said.derivative_legends import (
     with_derivative_legends,
     with_paired_rates,
@@ -229,7 +230,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
-    relaxed = without_legend(without_references(with_index_of_time(session, lambda name: key(name) in moving, taken)))
+    timed = with_index_of_time(session, lambda name: key(name) in moving, taken)
+    timed = with_start_alone(without_references(without_marks_of_terms(timed)), lambda name: key(name) in moving)
+    relaxed = without_legend(timed)
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))

@@ -17,7 +17,7 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import inside, only_name
 from lagrangian.check.reading.reading_budget import ReadingBudget
-from lagrangian.check.reading.subjects import Subject
+from lagrangian.check.reading.subject import Subject
 from lagrangian.read.letters import key
 
 

@@ -44,9 +44,9 @@ from lagrangian.check.reading.programs.marks import (
 )
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
-from lagrangian.check.reading.prose.places_said import with_places
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words, terms_alone
+from lagrangian.check.reading.prose.values_said import values_said
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.read_steps import equations_of_motion, read_program
@@ -260,7 +260,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         notes,
         described_names(given, lines.names.known),
         frozenset(lines.unread) | chosen_names(given),
-        with_places(remarks.said, given, lines.names),
+        remarks.said,
+        values_said(given, lines.names),
         tuple(partial(_answer, given, model, place, x, []) for x in others),
         together(lines.doubts) if lines.doubts else None,
         bool(lines.lacking),

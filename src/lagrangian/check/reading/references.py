@@ -1,5 +1,6 @@
 """Reads references to an answer's own numbered lines: [5] L = [2] + [3] - [4] as L = T_1 + T_2 - V; so also
-L = (1) - (2) where the lines have their numbers behind them."""
+L = (1) - (2) where the lines have their numbers behind them. Numbers behind terms are none that lines below explain:
+m x'' [1] + k x [2] = F with "[1] the inertia" below."""
 
 from __future__ import annotations
 
@@ -22,8 +23,35 @@ _ALONE = re.compile(
     re.MULTILINE,
 )
 _REFERENCE = re.compile(r"[\[(](\d{1,2})[\])]")
+_EXPLAINS = re.compile(
+    r"^[ \t]*+(?P<mark>\[\d{1,2}\]|\(\d{1,2}\)|\[[a-z*]\])[ \t]*+[:=]?[ \t]*+(?P<words>(?:[^\W\d_]{2,24}[ \t,]++){2})?",
+    re.MULTILINE,
+)
+"""A line that says what stands at a number, and whether it does in words."""
+_MARKED = re.compile(
+    r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]?(?P<mark>\[\d{1,2}\]|\(\d{1,2}\)|\[[a-z*]\])(?=[ \t]*+(?:[-+−=.,;]|$))",
+    re.MULTILINE,
+)
+"""A number behind a term."""
 MOST = 60
 """The most numbered lines, and sides of references, that are looked at."""
+
+
+def without_marks_of_terms(written: TracedText) -> TracedText:
+    """Return an answer without the numbers behind terms of formulas that other lines explain in words."""
+    listed = list(islice(_EXPLAINS.finditer(written.text), MOST))
+    explained = {m["mark"]: m.start() for m in listed}
+    if not any(m["words"] for m in listed):
+        return written
+
+    def blank(match: re.Match[str]) -> str:
+        start = match.string.rfind("\n", 0, match.start()) + 1
+        goes_on = match.string[match.end() :].partition("\n")[0]
+        inside = "=" in goes_on or ("=" in match.string[start : match.start()] and goes_on.strip(" .,;"))
+        known = match["mark"] in explained and explained[match["mark"]] != start
+        return " " * len(match.group()) if inside and known else match.group()
+
+    return written.sub(_MARKED, blank)
 
 
 def without_references(written: TracedText) -> TracedText:

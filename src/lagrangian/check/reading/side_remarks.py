@@ -102,6 +102,12 @@ _LACKS = re.compile(
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
 _ITEM = re.compile(r"[ \t]*+(?:[-•*]|\(?[a-z\d]{1,3}[.)])[ \t]+")
 _UNITS = re.compile(r"(?:units?|dimensions?|einheiten?|dimension|unités?)\b", re.IGNORECASE)
+_ELSEWHERE = re.compile(
+    r"\b(?:lectures?|(?:text)?book|slides?|literature|vorlesung|skript|lehrbuch|buch|cours|livre)\b"
+    r"[^\n]{0,200}?\b(?:there|dort|là)\b[^\n.;]{0,60}=",
+    re.IGNORECASE,
+)
+"""A sentence that compares with the system of another place: as in the lecture, if …: there l θ'' + g θ = 0."""
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
 """A derivative of an energy."""
 _STATED = re.compile(
@@ -292,7 +298,13 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
         led = _LABEL.match(part) is not None or _LABEL_IN_WORDS.match(part) is not None
         case = bool(part.strip()) and _is_case(part, known, led=led)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
-        case = case or _is_condition(part) or kind == "case" or (kind is not None and _leaves_out(part))
+        case = (
+            case
+            or _is_condition(part)
+            or _ELSEWHERE.search(part) is not None
+            or kind == "case"
+            or (kind is not None and _leaves_out(part))
+        )
         lacks = not case and _LACKS.match(part) is not None
         if case or kind or lacks or _HELD.match(part):
             last = k

@@ -24,7 +24,7 @@ from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, names_in
 from lagrangian.check.reading.placeholders import is_placeholder
 from lagrangian.check.reading.stated import ENERGY_NAMES, energy_of
-from lagrangian.check.reading.subjects import Subject
+from lagrangian.check.reading.subject import Subject
 from lagrangian.check.reading.summed_energies import things_with
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass

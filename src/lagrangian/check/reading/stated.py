@@ -64,6 +64,14 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
     return kind if lhs and taken[0] in constants else None
 
 
+def is_no_energy(name: str, value: Any) -> bool:
+    """Whether what has the name of an energy is none by its value: a number, D = 0.61, T = 2.5 s, or K without rates, a
+    stiffness."""
+    if not isinstance(value, sp.Expr) or value == 0:
+        return False
+    return bool(value.is_number) or (str(name) == "K" and not value.atoms(sp.Derivative) and bool(value.free_symbols))
+
+
 def own_kinetic(own: Mapping[str, tuple[str, Any]]) -> str | None:
     """Return the one name of an answer's own, with its values by their keys, that is a T with an index and has squares
     of rates: T_rel = m x'^2/2; None if there is none, or more than one."""

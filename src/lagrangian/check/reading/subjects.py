@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -31,36 +30,13 @@ from lagrangian.check.reading.nodes import (
 )
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import energy_of, has_squares, momentum_of
+from lagrangian.check.reading.subject import Subject
 from lagrangian.model import Model
 from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
-from lagrangian.records import dataclass
-
-_CALLED = re.compile(
-    r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)(?:_?\d*|_[^\W_]{1,8})", re.IGNORECASE
-)
-"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x, eom_theta = …."""
 
 MULTIPLIERS = ("lambda", "lam", "lmbda")
 """How names of multipliers begin."""
-
-
-@dataclass(frozen=True)
-class Subject:
-    """The subject of a statement: its kind, its name, the token, the order of a rate, the inverse of the function that
-    the name stands in, and whether it is on the right."""
-
-    kind: Kind
-    name: str | None = None
-    token: Token | None = None
-    order: int = 0
-    inverse: str = ""
-    right: bool = False
-
-
-def is_label_of_equation(subject: Subject) -> bool:
-    """Whether a name only calls what follows an equation, with 0 on its right."""
-    return _CALLED.fullmatch(str(subject.token)) is not None
 
 
 def bare_names(trees: Iterable[Tree]) -> set[str]:

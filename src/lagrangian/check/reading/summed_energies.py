@@ -16,7 +16,7 @@ from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import derived, names_in, only_name
 from lagrangian.check.reading.stated import energy_of
-from lagrangian.check.reading.subjects import Subject
+from lagrangian.check.reading.subject import Subject
 from lagrangian.errors import listed
 from lagrangian.model import Body, Gravity, Inductor, Model, Spring, time
 from lagrangian.read.letters import key

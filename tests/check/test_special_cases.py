@@ -1,0 +1,90 @@
+"""What an answer says of special cases below right equations is judged in these: at rest, at the start, for J = 0.
+
+Oracle: a puck on a spring along a turning rod, (J + m r²) φ'' + 2 m r r' φ' = M and m r'' − m r φ'² + k (r − a) = 0.
+With φ' constant and r at rest, r = k a/(k − m φ'²); at the start, φ'' = M/(J + m a²); for J = 0,
+φ'' = (M/r − 2 m r' φ')/(m r). A pendulum that a force F holds at an angle θ: F = m g sin θ.
+"""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+from small_systems import rod
+from test_beside_at_rest import FLIES, helicopter
+
+from lagrangian.check.reference import truth_of
+from lagrangian.check.special_cases import INFINITE, follows
+from lagrangian.check.verdict import Status
+
+ROD = "(J + m r^2) phi'' + 2 m r r' phi' = M\nm r'' - m r phi'^2 + k (r - a) = 0\n\n"
+
+
+@pytest.mark.parametrize(
+    ("below", "right"),
+    [
+        ("Start from rest at r(0) = a, r'(0) = 0, phi'(0) = 0: phi''(0) = M/(J + m a^2)", True),
+        ("Start from rest at r(0) = a, r'(0) = 0, phi'(0) = 0: phi''(0) = M/(J + m a)", False),
+        ("Start: r = a, r' = 0, phi' = 0, so\n  phi'' = M/(J + m a^2)\n  r'' = 0", True),
+        ("Start: r = a, r' = 0, phi' = 0, so\n  phi'' = M/(J - m a^2)", False),
+        ("With constant phi' the puck stays where r (k - m phi'^2) = k a", True),
+        ("With constant phi' the puck stays where r (k + m phi'^2) = k a", False),
+        ("J → 0: r (m r phi'' + 2 m r' phi') = M remains", True),
+        ("a massless rod turns with (here J = 0)\nm r^2 phi'' + 2 m r r' phi' = M", True),
+        ("What if r' = 0 just then? (J + m r^2) phi'' = M, M does all for the rod.", True),
+        ("I took t = 2 s for the plot.", True),
+        ("Stiffness near the axis: K = k - m W^2", True),
+        ("Linearized near rest: D = 0.61, T = 2.5 s", True),
+        ("As in the lecture, where the bead has no spring: there r'' - r phi'^2 = 0.", True),
+    ],
+)
+def test_what_is_said_of_a_case_below_right_equations_is_judged_there(below: str, right: bool) -> None:
+    assert rod().check(ROD + below).right is right
+
+
+@pytest.mark.parametrize(
+    ("below", "right"),
+    [
+        ("Held at theta = 90°: F = m g", True),
+        ("Which F holds it? theta' = theta'' = 0:\n   F = m g sin(theta)", True),
+        ("Which F holds it? theta' = theta'' = 0:\n   F = m g cos(theta)", False),
+        ("$\\dot\\theta = \\ddot\\theta = 0$: $F = m g \\sin\\theta$", True),
+        ("$\\dot\\theta = \\ddot\\theta = 0$: $F = m g \\tan\\theta$", False),
+    ],
+)
+def test_what_holds_a_position_is_judged_at_rest(below: str, right: bool) -> None:
+    assert helicopter().check(FLIES + below).right is right
+
+
+def test_a_case_that_is_right_is_told_with_what_it_holds_for() -> None:
+    verdict = rod().check(ROD + "Start: r = a, r' = 0, phi' = 0, so\n  phi'' = M/(J + m a^2)")
+    assert "is right for phi' = 0, r = a, r' = 0" in " ".join(map(str, verdict.notes))
+
+
+@pytest.mark.parametrize("mark", ["[{}]", "({})"])
+def test_numbers_behind_terms_that_lines_below_explain_are_no_factors(mark: str) -> None:
+    one, two = mark.format(1), mark.format(2)
+    terms = f"(J + m r^2) phi'' {one} + 2 m r r' phi' {{}} = M\nm r'' - m r phi'^2 + k (r - a) = 0\n\n"
+    legend = f"{one} comes from the inertia of both\n{two} from d/dt of r^2, Coriolis"
+    assert rod().check(terms.format(two) + legend).right
+    assert rod().check(terms.format("") + legend).right
+    wrong = terms.format(two).replace("2 m r r'", "m r r'")
+    assert rod().check(wrong + legend).status is Status.WRONG
+
+
+def test_an_equation_follows_from_those_of_motion_for_given_values_or_does_not() -> None:
+    truth = truth_of(rod())
+    r, phi = truth.model.coordinates
+    m, J, k, a = (p.symbol for p in truth.model.parameters)
+    M = truth.model.inputs[0].symbol
+    zero = sp.S.Zero
+    steady = r.symbol - k * a / (k - m * phi.rate**2)
+    assert follows(truth, steady, {r.acceleration: zero, phi.acceleration: zero})
+    assert not follows(truth, steady, {phi.acceleration: zero})
+    assert not follows(truth, r.acceleration, {r.acceleration: zero})  # it only says the case
+    assert not follows(truth, sp.Symbol("q") - M, {phi.rate: zero})  # the system has no q
+    heavy = {J: INFINITE}
+    assert follows(truth, phi.acceleration, heavy)
+    assert not follows(truth, r.acceleration, heavy)
+    start = {r.symbol: a, r.rate: zero, phi.rate: zero}
+    assert follows(truth, phi.acceleration * (J + m * a**2) - M, start)
+    assert not follows(truth, phi.acceleration * (J + m * a**2) - 2 * M, start)
