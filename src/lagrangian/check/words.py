@@ -139,6 +139,12 @@ def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
     return (", the equation of ", symbols.get(finding.coordinate, finding.coordinate))
 
 
+_NAMED_KINDS = ("definition", "Xi", "T", "V", "L")
+_NAME = re.compile(r"\\?[^\W\d_][\w{}]{0,15}\*?")
+_ENERGY_OF = re.compile(r"(?:∂|(?<![^\W_])d|\\partial|partial)[ ({]{0,2}\\?(?:mathcal[ {]{0,2}|cal[ ])?[LTℒ]\b")
+"""A derivative of an energy, which is not carried out."""
+
+
 def _lines(verdict: Verdict, model: Model) -> Table:
     """A row for every line; of several equations in one line, as of matrices, each with its coordinate."""
     shown = _shown(verdict.findings)
@@ -147,7 +153,7 @@ def _lines(verdict: Verdict, model: Model) -> Table:
     every = list(dict.fromkeys(f.line.title for f in shown if f.is_open))
     roots: list[str] = []
     for f in shown:
-        words: list[str | Left] = [_word(f, roots or every, "above" if roots else "below")]
+        words: list[str | Left] = [_named(f, shown) or _word(f, roots or every, "above" if roots else "below")]
         if (note := f.told(verdict.hint)) is not None:
             words += [": ", *note.parts]
         of = _which(f, model) if often[f.line.title] > 1 else ()
@@ -178,6 +184,19 @@ def _which(finding: Finding, model: Model) -> tuple[str | Left, ...]:
     if kind not in ("definition", "identity") or not name:
         return _of(finding, model)
     return (f" ({name})",)
+
+
+def _named(finding: Finding, findings: Sequence[Finding]) -> str | None:
+    """The verdict on an equation that is wrong only because of what it calls S₂ or L, and does not write out."""
+    if not finding.follows or finding.line.kind != "equation":
+        return None
+    for root in (f for f in findings if f.is_open and f.line.kind in _NAMED_KINDS):
+        name = root.line.text.partition("=")[0].strip()
+        called = _ENERGY_OF.search(finding.line.text) if root.line.kind in ("T", "V", "L") else None
+        alone = _NAME.fullmatch(name) and re.search(rf"(?<![\w\\]){re.escape(name)}(?![\w'’′])", finding.line.text)
+        if alone or called:
+            return f"right as written, but {name} of line {root.line.number} is not"
+    return None
 
 
 def _word(finding: Finding, roots: Sequence[str], where: str) -> str:

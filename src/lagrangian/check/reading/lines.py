@@ -76,8 +76,7 @@ class Lines:
     def __init__(self, model: Model, names: Names | None = None) -> None:
         self.model = model
         self.names, self._free = names or Names(model), len(model.coordinates) - len(model.constraints)
-        self.names.later = self._look_ahead
-        self.budget = ReadingBudget()
+        self.names.later, self.budget = self._look_ahead, ReadingBudget()
         self.subjects, self.energies = Subjects(model, self.names), PartsOfEnergies(model, self.names)
         self._statements: Sequence[Statement] = ()
         self._waiting, self._made = dict[str, int](), dict[int, list[AnswerLine]]()
@@ -247,17 +246,18 @@ class Lines:
         return lines
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
-        subject, lhs = named_anew(subject, value := reader.finite(value, side)), cast("sp.Expr | None", None)
-        kind, name = subject.kind, subject.name
+        value, given = reader.finite(value, side), self.subjects.parameter(sides[0], value)
+        subject = subject if given else named_anew(subject, value)
+        kind, name, lhs = subject.kind, subject.name, cast("sp.Expr | None", None)
         if is_general(value) and kind == "Xi" and name is not None:
             return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
         if is_general(value):
             if (why := why_not_judged(value)) is not None:
                 self._not_judged(reader, why)  # L = T - V + λ (x² + y² - l²)
             return made_line("statement", None, value, name or kind, sides[0], side, reader)
+        if kind in ENERGIES and given is not None:
+            return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
-            if (given := self.subjects.parameter(sides[0], value)) is not None:
-                return made_line("given", None, value, given, sides[0], side, reader)
             self.names.stated[kind] = value
             if subject.token is not None and self.subjects.is_letter(subject):
                 self.names.define(subject.token, value)

@@ -93,6 +93,7 @@ class Names:
         """The quantities that the answer states with what they depend on: I(r)."""
         self.implied: dict[str, sp.Expr] = {}
         """The rates that letters of the answer are unless it says what they are: i of a charge q."""
+        self.called = frozenset[str]()  # letters of energies that words call something else: damping ratio D
         self.headed: dict[int, str] = {}
         """The headings that say of which quantity the items of a list are, by the numbers of their lines."""
         self._forces = NamedForces(model)

@@ -230,9 +230,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
-    timed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    timed = with_start_alone(without_references(without_marks_of_terms(timed)), lambda name: key(name) in moving)
-    relaxed = without_legend(timed)
+    relaxed = without_legend(_with_times(session, lambda name: key(name) in moving, taken))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
@@ -262,6 +260,12 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _with_times(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    """An answer without numbers of lines and terms, in which no t is an index and the start is no argument."""
+    timed = with_index_of_time(written, moves, taken)
+    return with_start_alone(without_references(without_marks_of_terms(timed)), moves)
 
 
 def _with_factors_apart(copied: TracedText, taken: Callable[[str], bool]) -> TracedText:

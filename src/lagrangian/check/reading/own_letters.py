@@ -3,6 +3,7 @@ then x'' = …/D."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator, Sequence
 
 from lark import Token, Tree
@@ -14,8 +15,20 @@ from lagrangian.check.reading.subjects import Subjects
 from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
 
+_CALLED = re.compile(
+    r"\b(?:(?:effective|total|resulting|linear|small)[ ])?(?:stiffness|spring[ ](?:rate|constant)|(?:feder)?steifigkeit"
+    r"|raideur|rigidité|(?:damping|lehr)[ ]?ratio|dämpfungs(?:grad|maß)|period|time[ ]constant|tension|torque|"
+    r"schwingungsdauer|length|radius|power|leistung|puissance)[ ]\$?(?P<name>[TVULKDRP])(?:\([^()=\n]{1,12}\))?"
+    r"(?=[ $]{0,2}=)",
+    re.IGNORECASE,
+)
 POWER = "P"
 """The letter of a power, and of potential energy."""
+
+
+def called_otherwise(text: str) -> frozenset[str]:
+    """The letters of energies that the word in front of them calls something else: stiffness K = k − m g/l."""
+    return frozenset(key(m["name"]) for m in _CALLED.finditer(text))
 
 
 def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
@@ -33,7 +46,7 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
-    found = {*_used_as_names(statements, first, subjects), *_cut_forces(statements, first, subjects)}
+    found = {*_used_as_names(statements, first, subjects), *_cut_forces(statements, first, subjects), *names.called}
     if any(map(_equates_to_power, statements)) and not names.scope.meanings(POWER)[0]:
         found.add(POWER)
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}

@@ -32,6 +32,7 @@ from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.name_patterns import NAME, WORD_LETTER
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.notations import without_notations
+from lagrangian.check.reading.own_letters import called_otherwise
 from lagrangian.check.reading.parsed import parsed, parsers_of, places_of_marks
 from lagrangian.check.reading.plain.rows import AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.plain.tokens import with_points
@@ -277,7 +278,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
 
 
 def _set_dependents(names: Names, text: str, written: ExpandedLatex | None) -> None:
-    """Set which quantities stand with what they depend on in brackets."""
+    """Set which quantities stand with what they depend on in brackets, and which letters words call no energies."""
+    names.called = called_otherwise(text)
     own = {key(name) for name in names.model.symbols}
     stated = dependents(written.text if written else text, lambda name: key(name) in own, names.changes)
     names.dependents = stated | called_definitions(text, names)

@@ -64,12 +64,9 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
     return kind if lhs and taken[0] in constants else None
 
 
-def is_no_energy(name: str, value: Any) -> bool:
-    """Whether what has the name of an energy is none by its value: a number, D = 0.61, T = 2.5 s, or K without rates, a
-    stiffness."""
-    if not isinstance(value, sp.Expr) or value == 0:
-        return False
-    return bool(value.is_number) or (str(name) == "K" and not value.atoms(sp.Derivative) and bool(value.free_symbols))
+def is_no_energy(value: Any) -> bool:
+    """Whether what has the name of an energy is none, as its value is a number: D = 0.61, T = 2.5 s."""
+    return isinstance(value, sp.Expr) and value != 0 and bool(value.is_number)
 
 
 def own_kinetic(own: Mapping[str, tuple[str, Any]]) -> str | None:

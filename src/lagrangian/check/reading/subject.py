@@ -33,7 +33,7 @@ class Subject:
 
 def named_anew(subject: Subject, value: sp.Expr) -> Subject:
     """A subject; one with the name of an energy that is none by its value is a name of the answer's own."""
-    if subject.kind not in ENERGIES or subject.token is None or not is_no_energy(subject.token, value):
+    if subject.kind not in ENERGIES or subject.token is None or not is_no_energy(value):
         return subject
     return Subject("definition", str(subject.token), subject.token)
 
