@@ -12,6 +12,7 @@ import sympy as sp
 from small_systems import rod
 from test_beside_at_rest import FLIES, helicopter
 
+import lagrangian as lg
 from lagrangian.check.reference import truth_of
 from lagrangian.check.special_cases import INFINITE, follows
 from lagrangian.check.verdict import Status
@@ -88,3 +89,16 @@ def test_an_equation_follows_from_those_of_motion_for_given_values_or_does_not()
     start = {r.symbol: a, r.rate: zero, phi.rate: zero}
     assert follows(truth, phi.acceleration * (J + m * a**2) - M, start)
     assert not follows(truth, phi.acceleration * (J + m * a**2) - 2 * M, start)
+
+
+@pytest.mark.parametrize(("value", "right"), [("21.8", True), ("21.8°", True), ("25.8°", False)])
+def test_a_rounded_angle_is_one_of_the_number_that_its_tangent_has(value: str, right: bool) -> None:
+    s = lg.System("lever at rest")
+    theta = s.coordinate("theta")
+    m, a, b, g = s.parameters("m a b g", m=2, a=0.4, b=1, g=10)
+    s.particle(m, at=s.point("P", (a * sp.cos(theta) - b * sp.sin(theta), -a * sp.sin(theta) - b * sp.cos(theta))))
+    s.gravity((0, -1), g)
+    equation = "m (a^2 + b^2) theta'' - m g a cos(theta) + m g b sin(theta) = 0\n"
+    angle = value if value.endswith("°") else f"{value}°"
+    answer = f"{equation}\nequilibrium: tan(theta_0) = a/b = 0.4/1 = 0.4 → theta_0 = {angle}"
+    assert s.derive().check(answer).right is right

@@ -212,7 +212,7 @@ def _untrue(
     above: float | None = None
     for x in stated:
         digits = next((n for n in numbers if _same(n.size, abs(x.number))), None)
-        near = (EXACT + loose if numbers else ROUNDED) * abs(x.meant)
+        near = (EXACT + loose if numbers and not _of_angle(said) else ROUNDED) * abs(x.meant)
         if digits is not None:
             near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         near = max(near, EXACT * x.scale) if x.number == 0 else near
@@ -220,6 +220,11 @@ def _untrue(
             return _told(x, digits), x.number - x.meant
         above = x.number
     return None
+
+
+def _of_angle(lines: Sequence[AnsweredLine]) -> bool:
+    """Whether a number is that of a function of an angle, which may be rounded: tan θ₀ where θ₀ = 21.8°."""
+    return any(x.args[0].is_number for line in lines for x in line.expr.atoms(sp.sin, sp.cos, sp.tan))
 
 
 def _stated(

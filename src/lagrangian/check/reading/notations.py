@@ -72,6 +72,7 @@ from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
 from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
+from lagrangian.check.reading.said.of_each import with_names_of_each
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
 from lagrangian.check.reading.said.rates_with_p import with_p_as_points
@@ -271,7 +272,7 @@ def _with_times(written: TracedText, moves: Callable[[str], bool], taken: Callab
 def _with_factors_apart(copied: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """A plain text without functions that have no name and leading words, with definitions and named factors apart."""
     opened = without_leading_words(without_anonymous_functions(copied, taken), taken)
-    return with_factors_named_behind(with_definitions_apart(opened, taken), taken)
+    return with_factors_named_behind(with_definitions_apart(with_names_of_each(opened, taken), taken), taken)
 
 
 def _in_latex(said: TracedText) -> TracedText:

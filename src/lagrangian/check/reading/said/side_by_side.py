@@ -25,6 +25,13 @@ _ROW = re.compile(
 )
 """A definition and at least one more equals sign, without a mark between them."""
 _SECOND = re.compile(rf"(?<=[\w)\]²³'’′])(?P<gap>[ \t]{{1,2}})(?P<new>{_NAME})[ \t]*=(?![=>])")
+_BESIDE = re.compile(
+    rf"^(?P<before>[^=\n]{{3,200}}?[\w)\]²³'’′\u0307\u0308])(?P<gap>[ \t]{{3,150}}+)"
+    rf"(?={_NAME}['’′]{{0,2}}(?:²|\^2)?[ \t]*=(?![=>]))",
+    re.MULTILINE,
+)
+"""A term without an equals sign, and a definition far behind it: - m g cos psi      psi = psi0 - x/r."""
+_MATHEMATICS = re.compile(r"[+*/^²³·(]|(?:^|[ \t])[-−][ \t]?\w|\w['’′]|[\u0307\u0308]")
 _SAID = r"[ \t]*(?::(?!=)|…|\.{2}|\b(?:is|are|being|denotes|means|stands|for|ist|bezeichnet|bedeutet|steht|est)\b)"
 """What stands behind a name of which words say what it is."""
 _WORD = re.compile(r"[^\W\d_]\w*")
@@ -32,10 +39,10 @@ _POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹¼½¾⅓", " " * 14)
 
 
 def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
-    """Return an answer in plain text in which a semicolon stands between such definitions.
+    """Return an answer in plain text in which a semicolon stands between such definitions, and between a term and one.
 
-    Each name but the first is none of the system, which ``taken`` tells, has no other value or meaning, and is used
-    elsewhere; what stands in front of it is a value in names that are known.
+    Each name but the first of a row is none of the system, which ``taken`` tells, has no other value or meaning, and
+    is used elsewhere; what stands in front of it is a value in names that are known.
     """
     text = written.text
     edits: list[Edit] = []
@@ -53,7 +60,17 @@ def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) ->
             and all(_is_value(x, own, taken) for x in values)
         ):
             edits += [(start + x.start("gap"), start + x.end("gap"), "; ") for x in found]
+    terms = (m for m in islice(_BESIDE.finditer(text), MOST) if _is_term(m["before"], taken))
+    edits += [(*m.span("gap"), "; ") for m in terms]
     return written.edited(edits)
+
+
+def _is_term(before: str, taken: Callable[[str], bool]) -> bool:
+    """Whether a part of a line is a formula, perhaps behind a label, and no words."""
+    last = before.rpartition(":")[2] if ":" in before else before
+    names = [x for x in _WORD.findall(last.translate(_POWERS)) if function_of(x) is None]
+    known = sum(taken(x) or (len(x) <= MOST_LETTERS and all(map(taken, x))) for x in names)
+    return known > 1 and (_MATHEMATICS.search(last) is not None or known == len(names))
 
 
 def _is_own(name: str, text: str, taken: Callable[[str], bool]) -> bool:
