@@ -282,7 +282,9 @@ def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
         {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
     )
     summed = with_named_sums(written, lambda name: key(name) in fixed, latex=bool(LATEX.search(written.text)))
-    apart = with_deviations(summed, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    apart = with_deviations(
+        summed, lambda name: key(name) in moving, lambda name: key(name) in inputs, lines.names.known
+    )
     apart = apart.sub(_ADDED_DEGREES, lambda m: f"{m['sign']} ({m['number']}*pi/180)")
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 

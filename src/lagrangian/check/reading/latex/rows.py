@@ -7,7 +7,14 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
+from lagrangian.check.reading.latex.layout import (
+    closing,
+    remark_end,
+    without_braces,
+    without_brackets_around,
+    without_end_marks,
+    without_units,
+)
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.name_patterns import OF_CHAPTER
@@ -351,7 +358,7 @@ def _tidy(row: AnswerRow) -> AnswerRow:
     while end and text[end - 1] in (".,;:" if "=" in text else ".,;"):
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
         end = _content_end(text[:end])
-    return AnswerRow(row.start, text[:end])
+    return AnswerRow(row.start, without_brackets_around(text[:end]))
 
 
 def _outer(text: str) -> str:
