@@ -26,26 +26,15 @@ from lagrangian.check.reading.prose.directions import is_direction
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _BEHIND = re.compile(r"(?:\s|\\[,;:!]|&)*+(?:[,.;]|\\\\|\\q?quad|\\end|\\\]|\$|\Z)")
 """What stands behind a word of a direction that is no factor."""
-_DISPLAYS = [
-    "equation",
-    "align",
-    "gather",
-    "multline",
-    "eqnarray",
-    "flalign",
-    "alignat",
-    "displaymath",
-    "math",
-    "dmath",
-]
-_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
+_DISPLAYS = "equation|align|gather|multline|eqnarray|flalign|alignat|displaymath|math|dmath"
+_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{_DISPLAYS})\*?)\}}")
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
-_WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
+_WRAPPERS = rf"{_DISPLAYS}|aligned|alignedat|gathered|split|subequations|document|center"
 _THIN = r"(?:\s|~|\\[,;:!> ]|\\q?quad(?![A-Za-z])|\{\s?\})*+"
 """Space between a large bracket and what stands in it."""
 _WRAPPER = re.compile(
-    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[){_THIN})?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
-    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[){_THIN})?\\begin\{{(?:{_WRAPPERS})\*?\}}(?:\[[tcb]\])?"
+    rf"|\\end\{{(?:{_WRAPPERS})\*?\}}(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
 )
 _SYSTEM = re.compile(
     rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.){_THIN})?"
