@@ -7,10 +7,10 @@ The deviation of an input is the input less its constant: τ = τ0 + τ1 is τ1 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Set
 from itertools import islice
-from unicodedata import normalize
 
+from lagrangian.check.reading.shortened import moving_names
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key, undotted
 
@@ -76,22 +76,26 @@ def with_deviations(
         fixed = not any(moves(x) or drives(x) for x in map(_bare, _NAMES.findall(match["rest"])))
         if fixed and drives(_bare(match["of"])) and not taken(_bare(match["more"])):
             edits.append((*match.span(), f"{match['more']} = {match['of']} - ({match['rest']})"))
+    moving = moving_names(written.text)
     for match in islice(_UNIFORM.finditer(written.text), MOST):
-        bare = _bare(match["of"].removeprefix("\\dot").strip(" {}"))
-        of, order = undotted(bare.rstrip("'’′"))
-        order += match["of"].startswith("\\dot") + len(bare) - len(bare.rstrip("'’′"))
-        first, second = (match[x] for x in ("first", "second"))
-        if match["time"] is None and not _has_rate(second, written.text):
-            first, second = second, first
-        constant = match["time"] is not None or (_has_rate(second, written.text) and not _has_rate(first, written.text))
-        if (
-            moves(of)
-            and order == (match["time"] is None)
-            and constant
-            and not any(map(moves, map(_bare, (first, second))))
-        ):
-            edits.append((*match.span(), f"{second} = {match['of']} - {first}{' t' if match['time'] else ''}"))
+        if (said := _of_uniform_motion(match, moves, moving)) is not None:
+            edits.append((*match.span(), said))
     return written.edited(apart(sorted(edits)))
+
+
+def _of_uniform_motion(match: re.Match[str], moves: Callable[[str], bool], moving: Set[str]) -> str | None:
+    """The deviation from a uniform motion by itself: w = φ′ − Ω, where Ω has no rate and w has; δ = φ − Ω t."""
+    bare = _bare(match["of"].removeprefix("\\dot").strip(" {}"))
+    of, order = undotted(bare.rstrip("'’′"))
+    order += match["of"].startswith("\\dot") + len(bare) - len(bare.rstrip("'’′"))
+    first, second = (match[x] for x in ("first", "second"))
+    rated = [key(_bare(x)) in moving for x in (first, second)]
+    if match["time"] is None and rated == [True, False]:
+        first, second = second, first
+    sure = match["time"] is not None or any(rated) != all(rated)
+    if not sure or order != (match["time"] is None) or not moves(of) or any(map(moves, map(_bare, (first, second)))):
+        return None
+    return f"{second} = {match['of']} - {first}{' t' if match['time'] else ''}"
 
 
 def _with_delta_names(written: TracedText, counts: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -107,13 +111,6 @@ def _with_delta_names(written: TracedText, counts: Callable[[str], bool], taken:
         return match.group() if of not in named else rf"{match['dots']}{{{name}}}" if match["dots"] else name
 
     return written.sub(_DELTA, one)
-
-
-def _has_rate(name: str, text: str) -> bool:
-    """Whether a text has a rate of a name."""
-    bare = re.escape(name)
-    forms = rf"(?<![\w\\]){bare}(?:['’′\u0307\u0308]|_?d?dot(?!\w))|\\d?dot(?![A-Za-z])[ ]?\{{?[ ]?{bare}(?![\w])"
-    return re.search(forms, normalize("NFD", text)) is not None
 
 
 def constants_of_deviations(text: str) -> Iterator[str]:

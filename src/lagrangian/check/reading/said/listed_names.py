@@ -33,7 +33,8 @@ _HEAD = re.compile(
 _END = re.compile(r"[;=\n]|\.(?=\s|\Z)|\Z")
 _GROUP = re.compile(
     rf"(?<![\w*/^+−'’′-])(?P<new>{IDENT}(?:[ \t]*(?:,[ \t]*(?:and|und)|,|[ \t]and|[ \t]und|/)[ \t]*{IDENT}){{1,7}})"
-    r"[ \t]++(?:are[ \t](?:short|abbreviations|symbols)[ \t]for|are|be|denote|mean|abbreviate|stand[ \t]for|short[ \t]for|for|sind|seien|stehen[ \t]für|für)[ \t]++"
+    r"[ \t]++(?:are[ \t](?:short|abbreviations|symbols)[ \t]for|are|be|denote|mean|abbreviate"
+    r"|stand[ \t]for|short[ \t]for|for|sind|seien|stehen[ \t]für|für)[ \t]++"
     r"(?P<values>[^\n;=]{3,300}?)[ \t]*(?:respectively[ \t]*)?(?P<end>[;:\n]|\.(?=\s|\Z)|\Z)",
     re.IGNORECASE,
 )
