@@ -41,6 +41,7 @@ from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
+from lagrangian.check.reading.programs.indexed_coordinates import with_indexed_coordinates
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -211,6 +212,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     moving = {key(c.name) for c in lines.model.coordinates}
     copied = _copied(text)
     if not LATEX.search(text):
+        copied = with_indexed_coordinates(copied, [c.name for c in lines.model.coordinates], names.scope.meanings)
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
