@@ -93,6 +93,16 @@ def test_letters_are_set_against_those_of_the_sheet(said: str) -> None:
     assert not accepted(SHEET[said], OF_SHEET.replace("s - s0", "s + s0"))
 
 
+@pytest.mark.parametrize(
+    "said",
+    ["I wrote b for the angle (it is phi on the sheet).", "I call the angle of the rod b (on the sheet: phi)."],
+)
+def test_a_pronoun_is_no_letter_that_is_set_against_one_of_the_sheet(said: str) -> None:
+    verdict = rod().check(f"{said}\nm r'' - m r b'^2 + k (r - a) = 0\n(J + m r^2) b'' + 2 m r r' b' = M")
+    assert verdict.right
+    assert "As you write, b stands for phi." in map(str, verdict.notes)
+
+
 def test_letters_of_a_table_in_latex_are_set_against_those_of_the_sheet() -> None:
     said = r"""\begin{tabular}{ll}
     $\gamma$ & angle of the rod, the sheet's $\varphi$\\

@@ -66,13 +66,20 @@ _BEFORE = re.compile(
     re.MULTILINE,
 )
 """The names and the words in front of such a reference, on a row of their own."""
+_BEGINS = (
+    r"(?:\A|\\\\|[\n|;,:]|(?<!\w)(?:and|und|that|dass|with|mit|us(?:e|ed|ing)|wr(?:ite|ote)|call(?:ed)?|take|took"
+    r"|nenne|schreibe|nehme)(?!\w))"
+)
+_STARTS = re.compile(_BEGINS)
 _PART = re.compile(
-    rf"(?:\A|\\\\|[\n|;,:]|(?<!\w)(?:and|und|that|dass|with|mit)(?!\w))[ \t\n]*(?:[-*•–][ ])?"
-    rf"(?P<new>{_NAME})(?![\w'’′])"
-    r"[ \t]*(?:&|\||=|[-–—])?(?P<words>[^\n&|=+*/^()\\${}\[\];:,]{0,80})\Z",
+    rf"{_BEGINS}[ \t\n]*(?:[-*•–][ ])?(?P<new>{_NAME})(?![\w'’′])"
+    r"[ \t]*(?:&|\||=|[-–—]|,[ ](?=the[ ]|its?[ ]|an?[ ]))?[ \t]*[^\n&|=+*/^()\\${}\[\];:,]{0,80}\Z",
 )
 """One name and the words behind it, as a part of a sentence; that part which begins last is found last."""
-_STARTS = re.compile(r"\A|\\\\|[\n|;,:]|(?<!\w)(?:and|und|that|dass|with|mit)(?!\w)")
+_WORD_ALONE = re.compile(
+    r"I[ \t]+(?!(?:is|are|be|denotes|means|stands|for)\b)[a-z]{2}|[aA][ \t]+(?!(?:is|are|for|its)\b)[a-z]{2}"
+)
+"""A pronoun or an article, which is no name: I call the angle …"""
 _JUST = re.compile(rf"(?<![\w$`*\\])(?P<new>{_NAME})[ \t]*\Z")
 """The name in front of such a reference."""
 Pair = tuple[str, str]
@@ -105,12 +112,12 @@ def tabled_letters(
 def _named_before(text: str, end: int) -> Iterator[tuple[int, str]]:
     """The names for which a reference that begins at ``end`` may be, the likeliest first, and where they begin."""
     first = max(0, end - LONGEST // 2)
-    parts = [x for m in _STARTS.finditer(text, first, end) if (x := _PART.match(text, m.start(), end)) is not None]
-    yield from ((x.start("new"), x["new"]) for x in reversed(parts))
-    if (row := _BEFORE.search(text, first, end)) is not None:
-        yield row.start("new"), row["new"]
-    if (just := _JUST.search(text, first, end)) is not None:
-        yield just.start("new"), just["new"]
+    starts = islice(_STARTS.finditer(text, first, end), MOST)
+    parts = [x for m in starts if (x := _PART.match(text, m.start(), end)) is not None]
+    others = (form.search(text, first, end) for form in (_BEFORE, _JUST))
+    for found in (*reversed(parts), *others):
+        if found is not None and _WORD_ALONE.match(text, found.start("new")) is None:
+            yield found.start("new"), found["new"]
 
 
 Row = tuple[list[str], tuple[int, int]]
