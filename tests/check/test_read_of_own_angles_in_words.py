@@ -39,7 +39,13 @@ m s'' - k (r psi/n - s) + m g = - b s'
 
 
 @pytest.mark.parametrize(
-    "said", ["so the drum turns by psi/n", "the drum then turns with psi/n.", "drum rotates by psi/n"]
+    "said",
+    [
+        "so the drum turns by psi/n",
+        "the drum then turns with psi/n.",
+        "drum rotates by psi/n",
+        "the drum has turned psi/n",
+    ],
 )
 def test_a_body_that_turns_by_an_own_angle_gives_its_coordinate(said: str) -> None:
     text = OWN.replace("SAID", said)

@@ -92,6 +92,7 @@ def _implicit(
     """The lines, those that define names marked as definitions, and the value of each name."""
     model = truth.model
     known = {p.symbol for p in model.parameters} | {cast("sp.Symbol", d.symbol) for d in model.definitions}
+    lines = _in_new_names(truth, lines, known)
     waiting = {k: line.expr for k, line in enumerate(lines) if line.kind == "equation" and _constant(line.expr, known)}
     at_rest = (x for x in equations_at_rest(truth, lines) if _constant(x, known))
     waiting |= {len(lines) + k: x for k, x in enumerate(at_rest)}
@@ -114,6 +115,18 @@ def _implicit(
     return tuple(replace(line, kind="definition") if k in done else line for k, line in enumerate(lines)), table
 
 
+def _in_new_names(truth: Reference, lines: Sequence[AnsweredLine], known: set[sp.Symbol]) -> tuple[AnsweredLine, ...]:
+    """The lines, those that give parameters in names of the answer as equations: of m = ε m0 and M = (1 − ε) m0, which
+    say together what ε and m0 are."""
+    symbols = {p.name: p.symbol for p in truth.model.parameters}
+    return tuple(
+        replace(line, kind="equation", expr=symbols[str(line.name)] - line.expr)
+        if line.kind == "given" and _constant(line.expr, known)
+        else line
+        for line in lines
+    )
+
+
 def _constant(expr: sp.Expr, known: set[sp.Symbol]) -> bool:
     """Whether an expression contains unknown names, and nothing that changes with time."""
     moving = bool(bounded.atoms(expr, AppliedUndef)) or time in expr.free_symbols
@@ -121,10 +134,11 @@ def _constant(expr: sp.Expr, known: set[sp.Symbol]) -> bool:
 
 
 def _first(expr: sp.Expr, known: set[sp.Symbol], used: Sequence[Set[Any]]) -> tuple[sp.Basic, sp.Expr] | None:
-    """An unknown name and its value; the name that the fewest other lines use, as zeta of 2 zeta wn."""
-    unknown = sorted(expr.free_symbols - known, key=lambda s: (sum(s in u for u in used), str(s)))
-    found = ((s, _value(expr, s)) for s in unknown)
-    return next(((s, v) for s, v in found if v is not None), None)
+    """An unknown name and its value; the name that the fewest other lines use, as zeta of 2 zeta wn, and of these one
+    whose value is no root: a of k (a - l) = m a w^2, which is real whatever the others are."""
+    unknown = sorted(expr.free_symbols - known, key=str)
+    found = [(s, v) for s in unknown if (v := _value(expr, s)) is not None]
+    return min(found, key=lambda x: (sum(x[0] in u for u in used), not x[1].is_Add and x[1].is_Pow), default=None)
 
 
 def _value(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:

@@ -59,7 +59,10 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
             return Spelling(put, (*notes, *(_read(a, b) for a, b in reading.items())))
     close = _likeliest(truth, lines, unknown, [*free, *inputs]) or _closest(unknown, [*free, *inputs])
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
-    left = [s for s in unknown if s not in close]
+    stated = [
+        line.expr for line in put if line.kind != "definition"
+    ]  # what definitions have, these have if they use it
+    left = [s for s in unknown if s not in close and any(x.has(s) for x in stated)]
     told = [_read(a, b) for a, b in close.items()]
     told += [not_there(truth.model, s) for s in left]
     return Spelling(put, (*notes, *told))

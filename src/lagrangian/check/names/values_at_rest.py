@@ -1,6 +1,7 @@
 """Values at rest that an answer subtracts and may leave open: p = φ − φ₀ and u = τ − τ₀ are deviations from rest.
 
-The system rests at these values: its equations hold there, with all rates 0.
+The system rests at these values: its equations hold there, with all rates 0. Those of a uniform motion, w = φ′ − Ω, may
+be any.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
-from lagrangian.model import Model
+from lagrangian.model import Model, time
 
 
 def values_at_rest(model: Model, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Symbol]:
     """Return the names that an answer gives to values of coordinates and inputs, of which the deviations have names."""
     known = {p.symbol for p in model.parameters}
-    found = constants_subtracted(model, lines)
-    return {x: own for x, own in found.items() if isinstance(own, sp.Symbol) and own not in known}
+    found = ((x, own / time if own.has(time) else own) for x, own in constants_subtracted(model, lines).items())
+    return {x: own for x, own in found if isinstance(own, sp.Symbol) and own not in known and own != time}
 
 
 def equations_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
@@ -30,6 +31,8 @@ def equations_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> list[s
     found, named = constants_subtracted(model, lines), values_at_rest(model, lines)
     if truth.derivation.multipliers or not any(c.symbol in named for c in model.coordinates):
         return []
+    if any(c.rate in found or found.get(c.symbol, sp.S.Zero).has(time) for c in model.coordinates):
+        return []  # it does not rest
     rest: dict[Any, Any] = {x: sp.S.Zero for c in model.coordinates for x in (c.rate, c.acceleration)}
     rest |= {c.symbol: found.get(c.symbol, c.symbol) for c in model.coordinates}
     rest |= {u.symbol: found.get(u.symbol, sp.S.Zero) for u in model.inputs}
@@ -37,8 +40,8 @@ def equations_at_rest(truth: Reference, lines: Sequence[AnsweredLine]) -> list[s
 
 
 def constants_subtracted(model: Model, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
-    """Return the constants that definitions subtract from coordinates and inputs."""
-    moving = [*(c.symbol for c in model.coordinates), *(u.symbol for u in model.inputs)]
+    """Return the constants that definitions subtract from coordinates, their rates and inputs; Ω t of φ − Ω t, too."""
+    moving = [*(x for c in model.coordinates for x in (c.symbol, c.rate)), *(u.symbol for u in model.inputs)]
     found: dict[sp.Expr, sp.Expr] = {}
     for line in lines:
         for x in moving if line.kind == "definition" and line.expr.is_Add else ():

@@ -26,6 +26,14 @@ _FORMS = (
     re.compile(r"(?P<of>[A-Z]\d?)(?P<axis>[xyz])"),
 )
 
+_SEGMENT = re.compile(
+    r"(?:^|[.:;,][ \t]|(?<!\w)(?:where|with|and|let|wobei|mit|und|sei)[ \t])[ \t]*"
+    r"(?!KE|PE|TE|OK|CM)(?P<name>[A-Z]{2})[ \t]++"
+    r"(?:is|be|denotes|means|stands[ \t]for|ist|sei|bezeichnet)(?!\w)",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A length between two points, which words say: AB denotes …"""
+
 
 def component_names(text: str, known: Callable[[str], bool]) -> Iterator[str]:
     """The names of components of points, which are no products xS = x S, where the system has no such name."""
@@ -49,3 +57,8 @@ def component_of(written: str, matrix: Callable[[str], object]) -> sp.Expr | Non
         at = _AXES.index(found["axis"])
         return cast("sp.Expr", column[at, 0]) if at < len(column) else None
     return None
+
+
+def segments(text: str) -> Iterator[str]:
+    """The names of lengths between two points that words introduce, which are no products: AB is the distance …"""
+    return (m["name"] for m in _SEGMENT.finditer(text) if m["name"].isupper())

@@ -41,6 +41,7 @@ from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
+from lagrangian.check.reading.programs.indexed_coordinates import with_indexed_coordinates
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -213,6 +214,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     moving = {key(c.name) for c in lines.model.coordinates}
     copied = _copied(text)
     if not LATEX.search(text):
+        copied = with_indexed_coordinates(copied, [c.name for c in lines.model.coordinates], names.scope.meanings)
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
@@ -290,7 +292,9 @@ def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
         {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
     )
     summed = with_named_sums(written, lambda name: key(name) in fixed, latex=bool(LATEX.search(written.text)))
-    apart = with_deviations(summed, lambda name: key(name) in moving, lambda name: key(name) in inputs)
+    apart = with_deviations(
+        summed, lambda name: key(name) in moving, lambda name: key(name) in inputs, lines.names.known
+    )
     apart = apart.sub(_ADDED_DEGREES, lambda m: f"{m['sign']} ({m['number']}*pi/180)")
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 

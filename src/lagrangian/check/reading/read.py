@@ -16,7 +16,7 @@ from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
-from lagrangian.check.reading.components import component_names
+from lagrangian.check.reading.components import component_names, segments
 from lagrangian.check.reading.defined_functions import called_definitions
 from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
@@ -385,6 +385,7 @@ def _words(lines: Lines, text: str) -> Words:
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
     own |= dict.fromkeys(x for x in names_in_chains(text) if not system.known(x) and not system.is_product(x))
     own |= dict.fromkeys(constants_of_deviations(text)) | dict.fromkeys(component_names(text, system.is_name))
+    own |= dict.fromkeys(x for x in segments(text) if not system.is_product(x))
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text)) | doubled_letters(text) | terms_alone(text)
     used |= introduced_letters(text)
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}

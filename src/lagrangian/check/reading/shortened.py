@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from unicodedata import normalize
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -44,6 +45,12 @@ _MOVING = re.compile(
 _TWO_LETTERS = re.compile(r"([A-Za-z][a-z])_?(\d*)")
 
 
+def moving_names(text: str) -> frozenset[str]:
+    """The names with rates in a text, in their common form."""
+    found = _MOVING.finditer(normalize("NFD", text))
+    return frozenset(key(m["plain"] or m["latex"].removeprefix("var")) for m in found)
+
+
 class AnswerScope(Scope):
     """The names of a system, which an answer may shorten.
 
@@ -74,7 +81,7 @@ class AnswerScope(Scope):
         self._meant.clear()
         self.taken = frozenset(map(key, own))
         self._rated = frozenset(m["name"] for m in _RATED.finditer(text))
-        self.moving = frozenset(key(m["latex"] or m["plain"]) for m in _MOVING.finditer(text))
+        self.moving = moving_names(text)
         self.used = frozenset(used) | self._rated | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
         doubled = [x for x in self.used if len(x) == 2 and x[0] == x[1] and key(x) not in self.taken]
         doubled = [x for x in doubled if x.isupper() or x[0] not in self]  # aa is a²

@@ -20,12 +20,19 @@ _RAISED = re.compile(
 )
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
-_SAYS = r"(?:is|ist|means|denotes|abbreviates|stands[ \t]for|bezeichnet|bedeutet|steht[ \t]für)"
+_SAYS = r"(?:is|be|being|ist|sei|means|denotes|abbreviates|stands[ \t]for|bezeichnet|bedeutet|steht[ \t]für)"
 _STATED = re.compile(
     rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
     rf"(?:=(?![=>])|{_SAYS}\b)",
     re.MULTILINE,
 )
+_SUBTRACTED = re.compile(
+    rf"(?<![\w*^/])(?P<of>{_NAME})[ \t]*(?:[-−][ \t]*(?P<name>(?P=of))(?:\\?\*|[⋆★])"
+    r"(?=[ \t]*(?:[.,;:)]|$|[^\W\d_]{2}))"
+    rf"|=[ \t]*(?P<rest>(?P=of))(?:\\?\*|[⋆★])[ \t]*\+)",
+    re.MULTILINE,
+)
+"""A value from which deviations count: z = s - s*, s = s* + z."""
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
 """A star at the end of a heading: factor of s*:"""
 
@@ -53,7 +60,9 @@ def _raised(text: str, latex: bool) -> Iterator[Edit]:
 
 
 def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
-    for name in {m["name"] for m in islice(_STATED.finditer(text), MOST)}:
+    said = {m["name"] for m in islice(_STATED.finditer(text), MOST)}
+    said |= {m["of"] for m in islice(_SUBTRACTED.finditer(text), MOST)}
+    for name in sorted(said):
         if name[0] == "T":
             continue
         alone = known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None

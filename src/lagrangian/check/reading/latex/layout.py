@@ -27,6 +27,12 @@ _DONE = re.compile(
 )
 """What says that the work is done, behind an equation: \\qquad\\blacksquare."""
 _BEFORE = re.compile(rf"{_GAP}++\Z")
+_AROUND = re.compile(
+    rf"{_GAP}*+(?:\\(?:left|[bB]igg?l?)(?![A-Za-z])\s?)?[(\[](?P<inside>[^\0]{{1,2000}}?)"
+    rf"(?:\\(?:right|[bB]igg?r?)(?![A-Za-z])\s?)?[)\]](?:{_GAP}|[.;,])*+"
+)
+"""A row in brackets."""
+_DEEP = re.compile(r"[(\[{}\])=]")
 _FAR = 40
 """The most characters of space in front of such a mark."""
 _MAX = 200
@@ -47,6 +53,22 @@ def with_open_text(written: TracedText) -> TracedText:
         elif opened and _ROW_ENDS.search(text, max(0, match.start() - 60), match.start()) is None:
             edits.append((match.start(), match.start(), "\\\\ "))
     return written.edited(edits)
+
+
+def without_brackets_around(text: str) -> str:
+    r"""Return a row of LaTeX without brackets around it in which equations stand: \bigl(C = \cos\theta\bigr)."""
+    match = _AROUND.fullmatch(text)
+    if match is None or "=" not in match["inside"]:
+        return text
+    depth, stated = 0, False
+    for mark in _DEEP.findall(match["inside"]):
+        depth += (mark in "([{") - (mark in ")]}")
+        stated |= mark == "=" and depth == 0
+        if depth < 0:
+            return text
+    if depth or not stated:
+        return text
+    return " " * match.start("inside") + match["inside"] + " " * (len(text) - match.end("inside"))
 
 
 def without_end_marks(text: str) -> str:

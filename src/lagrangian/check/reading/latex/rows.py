@@ -7,7 +7,14 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
+from lagrangian.check.reading.latex.layout import (
+    closing,
+    remark_end,
+    without_braces,
+    without_brackets_around,
+    without_end_marks,
+    without_units,
+)
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.name_patterns import OF_CHAPTER
@@ -19,26 +26,15 @@ from lagrangian.check.reading.prose.directions import is_direction
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _BEHIND = re.compile(r"(?:\s|\\[,;:!]|&)*+(?:[,.;]|\\\\|\\q?quad|\\end|\\\]|\$|\Z)")
 """What stands behind a word of a direction that is no factor."""
-_DISPLAYS = [
-    "equation",
-    "align",
-    "gather",
-    "multline",
-    "eqnarray",
-    "flalign",
-    "alignat",
-    "displaymath",
-    "math",
-    "dmath",
-]
-_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
+_DISPLAYS = "equation|align|gather|multline|eqnarray|flalign|alignat|displaymath|math|dmath"
+_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{_DISPLAYS})\*?)\}}")
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
-_WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
+_WRAPPERS = rf"{_DISPLAYS}|aligned|alignedat|gathered|split|subequations|document|center"
 _THIN = r"(?:\s|~|\\[,;:!> ]|\\q?quad(?![A-Za-z])|\{\s?\})*+"
 """Space between a large bracket and what stands in it."""
 _WRAPPER = re.compile(
-    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[){_THIN})?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
-    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[){_THIN})?\\begin\{{(?:{_WRAPPERS})\*?\}}(?:\[[tcb]\])?"
+    rf"|\\end\{{(?:{_WRAPPERS})\*?\}}(?:{_THIN}\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
 )
 _SYSTEM = re.compile(
     rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.){_THIN})?"
@@ -351,7 +347,7 @@ def _tidy(row: AnswerRow) -> AnswerRow:
     while end and text[end - 1] in (".,;:" if "=" in text else ".,;"):
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
         end = _content_end(text[:end])
-    return AnswerRow(row.start, text[:end])
+    return AnswerRow(row.start, without_brackets_around(text[:end]))
 
 
 def _outer(text: str) -> str:

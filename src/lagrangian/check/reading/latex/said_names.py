@@ -3,6 +3,7 @@ r"""Names that an answer in LaTeX gives otherwise than by a formula of its own: 
 \underbrace{(J + m l^2)}_{\Theta} \ddot\theta = …        $\Theta = (J + m l^2)$ in front, where \Theta is used again
 $S$ = tension in the hitch $= k u + c\dot u$              tension in the hitch $S = k u + c\dot u$
 $\Theta$ & $= J + m l^2$ \\                               $\Theta = J + m l^2$, in a row of a table
+\begin{tabular}{l@{$=$}l} $x_1$ & $x - d$ \\              $x_1 = x - d$
 """
 
 from __future__ import annotations
@@ -40,11 +41,32 @@ _IN_CELL = re.compile(
 )
 """A name and its value in cells of a table that stand beside each other."""
 
+_COLUMNS = re.compile(
+    r"\\begin\s?\{(?P<kind>tabular|tabularx|longtable)\*?\}(?P<spec>\{(?:[^{}\n]|\{[^{}\n]{0,40}\}){1,80}\})"
+    r"(?P<rows>[^\0]{0,4000}?)\\end\{(?P=kind)\*?\}"
+)
+"""A table with what stands between its columns."""
+_EQUATED = re.compile(r"\{\s?\|?\s?[lcr]\s?[@!]\{[^{}=]{0,20}=[^{}=]{0,20}\}")
+"""Columns of which an equals sign parts the first two."""
+_CELLS = re.compile(rf"(?P<new>\$\s?{_NAME}\s?)\$\s{{0,9}}&\s{{0,9}}\$(?=[^$&\n]{{1,200}}\$)")
+
 
 def with_named_formulas(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in LaTeX in which such names stand in front of their formulas; ``taken`` says whether a name
     belongs to the system."""
-    return _with_named_braces(_with_names_in_words(written, taken), taken)
+    return _with_named_braces(_with_names_in_words(_with_equated_columns(written), taken), taken)
+
+
+def _with_equated_columns(written: TracedText) -> TracedText:
+    """An answer in which an equals sign that stands between the columns of a table stands in its rows."""
+    edits: list[Edit] = []
+    for match in islice(_COLUMNS.finditer(written.text), MOST):
+        if "$" in match["spec"]:
+            edits.append((*match.span("spec"), "{l}"))
+        if _EQUATED.match(match["spec"]) is not None:
+            found = islice(_CELLS.finditer(written.text, *match.span("rows")), MOST)
+            edits += [(x.end("new"), x.end(), " = ") for x in found]
+    return written.edited(apart(edits))
 
 
 def _with_names_in_words(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

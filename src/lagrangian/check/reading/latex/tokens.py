@@ -59,7 +59,15 @@ _SKIPPED_LISTED = (
 _SKIPPED = frozenset(_SKIPPED_LISTED.split())
 _OPERATORS = {"cdot": "times", "times": "times", "ast": "times", "star": "times", "div": "over", "pm": "other"}
 _VARIANTS = {"vartheta": "theta", "varphi": "phi", "varepsilon": "epsilon", "varrho": "rho", "varpi": "pi"}
-_VARIANTS |= {"varsigma": "sigma", "ell": "l", "hslash": "hbar", "Varphi": "Phi", "imath": "i", "jmath": "j"}
+_VARIANTS |= {
+    "varkappa": "kappa",
+    "varsigma": "sigma",
+    "ell": "l",
+    "hslash": "hbar",
+    "Varphi": "Phi",
+    "imath": "i",
+    "jmath": "j",
+}
 _GREEK = frozenset(GREEK.values()) | {word.capitalize() for word in GREEK.values()}
 _ACCENTS = {"dot": "1", "ddot": "2", "dddot": "3", "ddddot": "4"}
 _DECORATIONS = frozenset(["hat", "bar", "tilde", "vec", "overline", "underline", "widehat", "widetilde", "check"])

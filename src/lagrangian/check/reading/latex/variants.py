@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from lagrangian.check.reading.traced_text import TracedText
 
-_LETTERS = "theta|phi|epsilon|rho|sigma"
+_LETTERS = "theta|phi|epsilon|rho|sigma|kappa"
 _ALONE = r"(?:^|[$(,;:&]|\\\[|\\\()[ \t]{0,9}"
 _RELATED = re.compile(
     rf"{_ALONE}\\(?:var(?P<new>{_LETTERS})[ \t]{{0,9}}&?=[^=$\n;]{{0,80}}?\\(?P=new)(?![A-Za-z])"

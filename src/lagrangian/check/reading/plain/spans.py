@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.plain.tokens import TOKEN
+from lagrangian.check.reading.prose.conditions import gives_constant
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import ADDING, ARTICLES, LINKING, moves
 from lagrangian.records import dataclass
@@ -96,7 +97,7 @@ def statements(text: str, words: Words) -> list[MathSpan]:
         inside = text[span.start : span.end]
         if not span.stated and len(inside) > 1 and (first in "+-−–" or (moves(inside) and _OPERATOR.search(inside))):
             return []
-    stated = [x for x in found if x.stated and not x.conditional]
+    stated = [x for x in found if x.stated and (not x.conditional or gives_constant(text[x.start : x.end], words))]
     if any(_belongs(text, left, right) for left, right in pairwise(found)):
         return []
     if not all(_is_apart(text, x, words) for x in stated):

@@ -21,6 +21,13 @@ _BEHIND = re.compile(
     r"(?![\w-])"
 )
 """Such words behind the last equals sign of a line."""
+_SAID_AGAIN = re.compile(
+    r"(?<![\w-])(?:half|twice|doubled?|halved|tripled?|less|negative|opposite)(?![\w-])[^.;:=()\n]{1,80}"
+    r"(?:,[ ](?:so|i\.e\.|that[ ]is|thus|hence)?[ ]?\w{1,16}[ ]?=(?!=)"
+    r"|\((?=[^()\n]{0,80}[-+−*/^·²=])(?:[^()\n]|\([^()\n]{0,40}\)){1,80}\))",
+    re.IGNORECASE,
+)
+"""What words say and a formula behind them says, too: it is twice the angle of the bar, delta = 2 alpha."""
 _DERIVED = re.compile(r"\b(?:differentiat|deriv)\w{0,5}\b", re.IGNORECASE)
 """What is done twice or must be done without changing a value."""
 _MOST = 5
@@ -31,7 +38,7 @@ def changing_words(text: str) -> Iterator[str]:
     """A note about the lines of an answer whose words may change an equation, if there are any."""
     lines = [
         number
-        for number, line in enumerate(text.split("\n"), 1)
+        for number, line in enumerate(_SAID_AGAIN.sub("", text).split("\n"), 1)
         if (_CHANGES.search(line) is not None or _changes_behind(line)) and _DERIVED.search(line) is None
     ]
     if not lines:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose.words import Words
+from lagrangian.read.letters import key
 
 _NAME = r"[^\W\d][\w\u0307\u0308]{0,15}+['’′]{0,2}"
 _RELATION = (
@@ -65,6 +66,8 @@ _GONE = re.compile(
 _SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
 _NAMED = re.compile(r"[^\W\d][\w\u0307\u0308]*")
+_INDEXED = re.compile(r"[^\W\d_]\w{0,15}?[\d_₀-₉]\w{0,15}")
+"""A name with an index."""
 _FACTOR = re.compile(r"(?<![\d.])[ \t]+([^\W\d_]{2,12})(?![^\W_])(?!['’′]{0,2}[ \t]*=)")
 _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 
@@ -72,7 +75,10 @@ _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions blanked out."""
     found = [
-        m for m in CONDITION.finditer(text) if not (_COUNTED.match(m["said"]) or _goes_on(text, m.end("said"), words))
+        m
+        for m in CONDITION.finditer(text)
+        if not (_COUNTED.match(m["said"]) or _goes_on(text, m.end("said"), words))
+        and (m["word"].lower() in IF or not (gives_constant(m["said"], words) and _is_given_once(m["said"], text)))
     ]
     found += [m for m in _vanishing(text) if _is_case(m["said"], words)]
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
@@ -89,6 +95,23 @@ def without_conditions(text: str, words: Words) -> str:
         if spoken and words.names.changes(match["name"]):
             text = blank(text, *match.span())
     return text
+
+
+def gives_constant(stated: str, words: Words) -> bool:
+    """Whether a statement behind "at" or "for" says what a new constant is that is used elsewhere: relaxed at y0 = -s0.
+    A name with a rate, or without an index, may be a coordinate, which is there."""
+    name, equals, value = (x.strip() for x in stated.partition("="))
+    named = _NAMED.findall(value)
+    if not (equals and named and _INDEXED.fullmatch(name)) or words.names.known(name):
+        return False
+    fixed = all(words.names.known(x) and not words.names.changes(x) for x in named)
+    return fixed and key(name) not in words.names.scope.moving and words.count(name) > 1
+
+
+def _is_given_once(stated: str, text: str) -> bool:
+    """Whether nothing else gives a name its value."""
+    name = re.escape(stated.partition("=")[0].strip())
+    return len(re.findall(rf"(?<!\w){name}[ \t]*=(?!=)", text)) == 1
 
 
 def _goes_on(text: str, end: int, words: Words) -> bool:

@@ -2,7 +2,9 @@
 
 where m is the total mass m1 + m2, S stands for m2*a and I for J + m2*a^2      ; m = m1 + m2; S = m2*a; I = J + m2*a^2;
 
-The verb may be said once, and one name may be I.
+where s, c are sin(phi), cos(phi)                                              ; s = sin(phi); c = cos(phi);
+
+The verb may be said once, and one name may be I; or it stands between as many names and values.
 """
 
 from __future__ import annotations
@@ -29,6 +31,15 @@ _HEAD = re.compile(
 )
 """A name and its verb."""
 _END = re.compile(r"[;=\n]|\.(?=\s|\Z)|\Z")
+_GROUP = re.compile(
+    rf"(?<![\w*/^+−'’′-])(?P<new>{IDENT}(?:[ \t]*(?:,[ \t]*(?:and|und)|,|[ \t]and|[ \t]und|/)[ \t]*{IDENT}){{1,7}})"
+    r"[ \t]++(?:are[ \t](?:short|abbreviations|symbols)[ \t]for|are|be|denote|mean|abbreviate"
+    r"|stand[ \t]for|short[ \t]for|for|sind|seien|stehen[ \t]für|für)[ \t]++"
+    r"(?P<values>[^\n;=]{3,300}?)[ \t]*(?:respectively[ \t]*)?(?P<end>[;:\n]|\.(?=\s|\Z)|\Z)",
+    re.IGNORECASE,
+)
+"""Several names, a verb, and the rest of the sentence."""
+_JOINS = re.compile(r"[ \t]*(?:,[ \t]*(?:and|und)(?!\w)|[ \t](?:and|und)(?!\w)|,|/(?=[ \t]))[ \t]*|(?P<mark>[()])")
 _WORDS = re.compile(r"(?:the|an?|its|our|das|die|der|dem)[ \t]++(?:[^\W\d_]{3,20}[ \t]++){1,4}", re.IGNORECASE)
 """What a value is, in front of it: the total mass."""
 
@@ -51,7 +62,26 @@ def with_listed_names(written: TracedText, taken: Callable[[str], bool], exact: 
             ends = [*(x.start() for x in heads[1:]), values[-1][1]]
             for (head, (start, stop)), behind in zip(pairs, ends, strict=True):
                 edits += [(head.start(), start, f"; {head['new']} = "), (stop, behind, ";")]
+    for match in islice(_GROUP.finditer(text), MOST):
+        names, parts = ([x for x, _ in _parted(match[part])] for part in ("new", "values"))
+        if len(names) == len(parts) and all(
+            _is_said(a, b, text, taken, exact) for a, b in zip(names, parts, strict=True)
+        ):
+            said = "; ".join(f"{a} = {b}" for a, b in zip(names, parts, strict=True))
+            edits.append((match.start(), match.end("values"), f"; {said};"))
     return written.edited(apart(sorted(edits)))
+
+
+def _parted(listed: str) -> Iterator[tuple[str, int]]:
+    """The items of a list, which commas and "and" outside brackets part, and where each begins."""
+    start = depth = 0
+    for match in _JOINS.finditer(listed):
+        if match["mark"]:
+            depth += 1 if match["mark"] == "(" else -1
+        elif depth == 0:
+            yield listed[start : match.start()].strip(), start
+            start = match.end()
+    yield listed[start:].strip(), start
 
 
 def _sentences(text: str) -> Iterator[list[re.Match[str]]]:

@@ -117,7 +117,7 @@ _BY_TIME = re.compile(r"d[ ]?t(?!\w)|\([ ]?t[ ]?\)|(?<!\w)t[ ]?(?:>|>=|→)[ ]?0
 _ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
 _RATE = re.compile(r"([^\W\d_]\w{0,15}+)['’′](?!\w)")
 _SIGNS = frozenset("-+−*/^=(·½¼²³'’′")
-_JOIN = re.compile(r"[(){}\[\]]|(?:,|;|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
+_JOIN = re.compile(r"[(){}\[\]]|(?:(?<!\\)[,;]|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
 _STATED = re.compile(r"(?<![\w\\])\\?([^\W\d]\w{0,15}+)\*?[ \t]*+=(?!=)")
 _LAST = re.compile(r"(?<![^\W_])[^\W\d_]\w{0,15}\Z")
 _OPERATORS = tuple("-+−*/^)·²³'’′")
@@ -125,7 +125,7 @@ _PARAGRAPH = re.compile(r"\n[ \t]*\n")
 _MATHEMATICS = re.compile(r"[=+^]|\w[ ]?[*/][ ]?\w|[’'′](?!\w)|\w\(")
 _VARIANTS = {"varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho", "ell": "l"}
 _MARKS = str.maketrans("", "", "$\\{}`*")
-_IN_WORDS = "is it in on of to as at by or an no so ist im am es zu"
+_IN_WORDS = "is it in on of to as at by or an no so we my if be he do ist im am es zu"
 _OF = "of on in at to from between by von an auf in zwischen am im"
 _NO_LETTERS, _PREPOSITIONS = frozenset(_IN_WORDS.split()), frozenset(_OF.split())
 
@@ -248,7 +248,7 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
             sure = re.search(_INSTEAD, match.group()) is not None
             for a, b in zip(new, own, strict=True):
                 yield DeclaredLetter(a, system.find(b)[0], match.span(), sure)
-    for pairs, span in tabled_letters(text, _bare):
+    for pairs, span in tabled_letters(text, _bare, lambda a, b: key(a) == key(b) or _may_be(a, b, system)):
         pairs = [(a, b) for a, b in pairs if key(a) != key(b)]
         if (
             pairs
@@ -327,7 +327,7 @@ def _may_be(new: str, own: str, system: _System) -> bool:
     stem = re.match(r"[^\W\d_]*", key(new))[0]  # type: ignore[index]  # it always matches
     letter = len(re.sub(r"[\d_].*", "", normal(new))) == 1 or stem in SPELLED.values() or bool(system.find(new))
     two = new.isalpha() and len(new) == 2 and new.lower() not in _NO_LETTERS
-    letter = letter or (two and (new[0].isupper() or new[0] == new[1]))
+    letter = letter or (two and (not new.islower() or new[0] == new[1]))
     return letter and function_of(new) is None and len(system.find(own)) == 1 and key(new) != key(own)
 
 

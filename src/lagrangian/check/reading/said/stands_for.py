@@ -141,6 +141,15 @@ _EQUAL_IN_BRACKETS = re.compile(
     rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})\([ \t]*=[ \t]*(?P<value>[^()=,;\n]{{1,80}}?)[ \t]*\)"
 )
 """A name, what it is, and its value: w absolute rate of the panel (= dphi/dt + dpsi/dt)."""
+_NAMED_IN_BRACKETS = re.compile(
+    rf"(?<!\w)(?:with|by|as|call(?:ed)?|named?|denoted?|forces?|mit|durch|als|Kraft)[ \t]++(?P<new>{IDENT})[ \t]++"
+    r"\([ \t]*=[ \t]*(?P<value>(?:[^()=,;\n]|\([^()=\n]{0,60}\)){1,80})[ \t]*\)"
+)
+"""A name behind a word that leads to one, and its value: which I call f (= k times the stretch s)."""
+_TIMES_WHAT = re.compile(
+    r"[ \t]++(?:times|mal|fois)[ \t]++(?P<what>(?:the|its|die|der|das|le|la)[ \t]++(?:[^\W\d_]{3,20}[ \t]++){1,3})?"
+)
+"""The word for a product, and what the other factor is."""
 _BY_TIME = re.compile(r"(?<!\w)d[ ]?(?P<of>[^\W\d_]\w{0,15}?)[ ]?/[ ]?dt(?!\w)")
 _IS_RATE = re.compile(
     rf"(?<![\w.*/^+=])(?P<new>{IDENT})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
@@ -204,10 +213,11 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
     rate in brackets behind them."""
     written = _with_listed_states(written)
     edits: list[Edit] = []
-    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _EQUAL_IN_BRACKETS, _IS_RATE, _BY, _FOR_SUM):
+    forms = (_VALUED, _IS_VALUE, _IN_BRACKETS, _EQUAL_IN_BRACKETS, _NAMED_IN_BRACKETS, _IS_RATE, _BY, _FOR_SUM)
+    for form in forms:
         for match in form.finditer(written.text):
             spoken = match.groupdict().get("words") or ""
-            value = _BY_TIME.sub(r"\g<of>'", match["value"])
+            value = _multiplied(_BY_TIME.sub(r"\g<of>'", match["value"]))
             names = [x for x in re.findall(r"[^\W\d_²³]\w*", value) if function_of(x) is None]
             if (
                 not names
@@ -215,7 +225,9 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
                 or any(map(taken, [match["new"], *spoken.split()]))
             ):
                 continue
-            if _is_word(match["new"], written.text) or (form is _EQUAL_IN_BRACKETS and not _is_letter(match["new"])):
+            if _is_word(match["new"], written.text) or (
+                form in (_EQUAL_IN_BRACKETS, _NAMED_IN_BRACKETS) and not _is_letter(match["new"])
+            ):
                 continue
             if "end" in form.groupindex:  # a long value keeps its places
                 edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
@@ -225,9 +237,21 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
     return written.edited(apart(edits))
 
 
+def _multiplied(value: str) -> str:
+    """A value with the word for a product as its sign, and the other factor in brackets if words say what it is:
+    k times the stretch s - s0 is k*(s - s0)."""
+    match = _TIMES_WHAT.search(value)
+    if match is None:
+        return value
+    factor = value[match.end() :]
+    return f"{value[: match.start()]}*({factor})" if match["what"] else f"{value[: match.start()]}*{factor}"
+
+
 def _is_letter(name: str) -> bool:
-    """Whether a name is a letter, perhaps with a number, a few capitals or a spelled Greek letter, and neither a common
-    word nor the letter of an energy: w1, Th2, omega; no "the arm (= l)"."""
+    """Whether a name is a letter, perhaps with an index, a few capitals or a spelled Greek letter, and neither a common
+    word nor the letter of an energy: w1, f_s, Th2, omega; no "the arm (= l)"."""
+    if name[1:2] == "_":
+        return name[0] not in {*"TVUKLEDW"}
     stem = name.rstrip("0123456789_")
     spelled = stem in SPELLED.values() or name != stem or (len(name) <= MOST_LETTERS and not name.islower())
     return (len(name) == 1 or spelled) and stem not in {*"TVUKLEDWIaA"}

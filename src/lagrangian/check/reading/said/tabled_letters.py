@@ -39,24 +39,57 @@ _TABLE = r"\{(?:tabular|tabularx|array|longtable)\*?\}"
 _TABULAR = re.compile(rf"\\begin{_TABLE}(?P<rows>[^\0]{{1,4000}}?)\\end{_TABLE}")
 _ROW_END = re.compile(r"\\\\(?:\[[^\]\n]{0,12}\])?|\\tabularnewline(?![A-Za-z])")
 _LINES = re.compile(r"\\(?:hline|toprule|midrule|bottomrule|cline\{[^{}]{0,12}\})|\A\s*(?:\{[^{}\n]{0,40}\}){1,2}")
-_IN_BRACKETS = re.compile(
-    rf"\([ ]?(?:(?:in|on|im|auf|dans)[ ])?(?:(?:the|your|dem|der|l['’]|la|le)[ ]?)?(?:{_YOURS})"
-    rf"(?:[ ](?:notation|letters?|symbols?))?[ ]?[:=][ ]?(?P<own>{_LIST})[ ]?\)",
-    re.IGNORECASE,
+_SHEET = (
+    rf"(?:(?:the|your|our|this|dem|der|die|das|eurem?|ihrem?|l['’]|la|le)[ ])?(?:{_YOURS})"
+    r"(?:[ ](?:sheet|statement|description|text|notation|letters?|symbols?))?"
 )
+_IN = r"(?:in|on|of|from|by|im|auf|in[ ]der|dans|sur)[ ]"
+_THEIRS = rf"(?:(?:the|its|der|die|das)[ ])?(?:[^\W\d_]{{3,20}}[ ]){{0,2}}(?P<own>{_LIST})"
+_REFERENCES = tuple(
+    re.compile(rf"(?P<opens>\([ ]?|,[ ]){form}(?(opens)[ ]?(?:\)|(?=[ \t]*(?:\\\\|[\n|;.&]|\Z))))", re.IGNORECASE)
+    for form in (
+        rf"(?:{_IN})?{_SHEET}(?:['’]s[ ]|[ ]?[:=][ ]?){_THEIRS}",
+        rf"(?:your|euer|eure?|ihre?|votre|there|dort)[ ]{_THEIRS}",
+        rf"(?:(?:which|it|this)[ ])?(?:(?:was|were|formerly|previously|originally|war|früher|vorher|ehemals)[ ]){{1,2}}"
+        rf"(?:(?:the[ ])?{_SHEET}['’]s[ ])?{_THEIRS}(?:[ ]{_IN}{_SHEET}|[ ]before)?",
+        rf"(?:(?:which|it|this)[ ](?:is[ ])?)?(?:(?:called|named|denoted|written|genannt)[ ])?{_THEIRS}"
+        rf"(?:[ ]{_IN}{_SHEET}|[ ]there|[ ]dort)",
+        rf"(?:which[ ])?{_SHEET}[ ](?:calls?|names?|denotes?|writes|nennt|uses)(?:[ ]it)?[ ]{_THEIRS}",
+    )
+)
+"""What says, in brackets or behind a comma, how the system calls what a row is about: (sheet: α), (was theta), (M in
+the task), and, at the end of a row, ", the sheet's α"."""
 _BEFORE = re.compile(
     rf"(?:\A|\\\\|[\n|;]|^[ \t]*[-*•][ ])[ \t\n]*(?P<new>{_LIST})[ \t]*"
     r"(?:&|\||=|:|[-–—]|\bis\b|\bare\b|\bist\b|\bsind\b)?"
     r"(?P<words>[^\n&|=+*/^()\\${}\[\];]{1,80})\Z",
     re.MULTILINE,
 )
-"""The names and the words in front of such a bracket, on a row of their own."""
+"""The names and the words in front of such a reference, on a row of their own."""
+_BEGINS = (
+    r"(?:\A|\\\\|[\n|;,:]|(?<!\w)(?:and|und|that|dass|with|mit|us(?:e|ed|ing)|wr(?:ite|ote)|call(?:ed)?|take|took"
+    r"|nenne|schreibe|nehme)(?!\w))"
+)
+_STARTS = re.compile(_BEGINS)
+_PART = re.compile(
+    rf"{_BEGINS}[ \t\n]*(?:[-*•–][ ])?(?P<new>{_NAME})(?![\w'’′])"
+    r"[ \t]*(?:&|\||=|[-–—]|,[ ](?=the[ ]|its?[ ]|an?[ ]))?[ \t]*[^\n&|=+*/^()\\${}\[\];:,]{0,80}\Z",
+)
+"""One name and the words behind it, as a part of a sentence; that part which begins last is found last."""
+_WORD_ALONE = re.compile(
+    r"I[ \t]+(?!(?:is|are|be|denotes|means|stands|for)\b)[a-z]{2}|[aA][ \t]+(?!(?:is|are|for|its)\b)[a-z]{2}"
+)
+"""A pronoun or an article, which is no name: I call the angle …"""
+_JUST = re.compile(rf"(?<![\w$`*\\])(?P<new>{_NAME})[ \t]*\Z")
+"""The name in front of such a reference."""
 Pair = tuple[str, str]
 
 
-def tabled_letters(text: str, bare: Callable[[str], str]) -> Iterator[tuple[list[Pair], tuple[int, int]]]:
+def tabled_letters(
+    text: str, bare: Callable[[str], str], may_be: Callable[[str, str], bool]
+) -> Iterator[tuple[list[Pair], tuple[int, int]]]:
     """Yield the letters of an answer with those of the system, as tables and brackets set them against each other, and
-    where; ``bare`` takes the marks off a name."""
+    where; ``bare`` takes the marks off a name, and ``may_be`` says whether one may be a letter for the other."""
     meanings = short_names(text) if "\\" in text else {}
 
     def plain(name: str) -> str:
@@ -67,11 +100,24 @@ def tabled_letters(text: str, bare: Callable[[str], str]) -> Iterator[tuple[list
 
     for rows in (*_markdown(text), *_latex(text)):
         yield from _of_table(rows, plain)
-    for match in islice(_IN_BRACKETS.finditer(text), MOST):
-        first = max(0, match.start() - LONGEST // 2)
-        before = _BEFORE.search(text, first, match.start())
-        if before is not None and (pairs := _pairs(before["new"], match["own"], plain)):
-            yield pairs, (before.start("new"), match.end())
+    for form in _REFERENCES:
+        for match in islice(form.finditer(text), MOST):
+            for start, new in _named_before(text, match.start()):
+                pairs = _pairs(new, match["own"], plain)
+                if pairs and all(may_be(a, b) for a, b in pairs):
+                    yield pairs, (start, match.end())
+                    break
+
+
+def _named_before(text: str, end: int) -> Iterator[tuple[int, str]]:
+    """The names for which a reference that begins at ``end`` may be, the likeliest first, and where they begin."""
+    first = max(0, end - LONGEST // 2)
+    starts = islice(_STARTS.finditer(text, first, end), MOST)
+    parts = [x for m in starts if (x := _PART.match(text, m.start(), end)) is not None]
+    others = (form.search(text, first, end) for form in (_BEFORE, _JUST))
+    for found in (*reversed(parts), *others):
+        if found is not None and _WORD_ALONE.match(text, found.start("new")) is None:
+            yield found.start("new"), found["new"]
 
 
 Row = tuple[list[str], tuple[int, int]]

@@ -2,6 +2,7 @@
 
 A stands for M+m, B for m*l and D for J + m*l^2            A = M+m   B = m*l   D = J + m*l^2
 $m_t$ is the total mass $M+m$                              m_t = M+m
+P is the sum of the two forces, k x and b x'               P = k x + b x'
 We write $s_1$ and $c_1$ for $\\sin x$ and $\\cos x$       s_1 = \\sin x   c_1 = \\cos x
 Denote J + m l^2 by D; M_eff being m1 + m2                 D = J + m l^2   M_eff = m1 + m2
 v is the velocity of the cart                              v is the rate of a coordinate
@@ -73,6 +74,12 @@ _POINTING = frozenset(["direction", "along", "against", "towards", "parallel", "
 """Words in front of what only gives a direction: λ is positive in the direction of Ω s."""
 _DONE = frozenset(["times", "mal", "fois", "plus", "minus", "less"])
 """Words in front of what is done to an equation: F from the rear wheel, times n r."""
+_JOINED = {"sum": "+", "sums": "+", "summe": "+", "somme": "+", "resultant": "+", "product": "*", "produkt": "*"}
+"""Words for what one name is of several values, with the sign between these: the sum of F and k x."""
+_SIGNS = {"times": "*", "mal": "*", "fois": "*", "plus": "+", "minus": "-", "less": "-"}
+"""Words for signs between two values."""
+_MOST_WORDS = 4
+"""The most words that say what a value is, in front of it."""
 _OF = frozenset(["of", "von", "de", "du"])
 """Words in front of a name to which belongs what has the value: the lever arm of A is s; not the value of A is s."""
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
@@ -120,7 +127,7 @@ def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool)
     found: dict[str, dict[str, bool]] = {name: {} for name in names}
     coordinates = [c.name for c in words.names.model.coordinates]
     for sentence in _sentences(text, latex=latex):
-        items = list(_items(sentence, names, words, latex=latex))
+        items = list(_combined(list(_items(sentence, names, words, latex=latex))))
         for name, value, sure in (*_paired(items), *_rated(items, coordinates, words, latex=latex)):
             found[name][value] = found[name].get(value, False) or sure
     readings = list(_readings({names[x]: said for x, said in found.items() if said}))
@@ -225,6 +232,44 @@ def _is_value(written: str, words: Words) -> bool:
     if written[0] in "'’′" or written[-1] in "+-*/^":
         return False
     return bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
+
+
+def _combined(items: Sequence[_Item]) -> Iterator[_Item]:
+    """The items, those values as one that words add or multiply: k times the stretch s - s0; the sum of F and k x.
+
+    A single value behind such a word is no value of the name: P is the sum of F, which is one of its parts, and others.
+    """
+    made: list[_Item] = []
+    joins = ""
+    for item in items:
+        lower = [x.lower() for x in item.before]
+        above = made[-1] if made and made[-1].kind == item.kind == "value" else None
+        sign = _SIGNS.get(lower[0], "") if lower else ""
+        listed = lower[:1] in ([","], ["and"], ["und"], ["et"])
+        if above is not None and (sign or (listed and joins)) and _only_says_what(lower[1:]):
+            made[-1] = _Item("value", _with_sign(above.text, sign or joins, item.text, spoken=bool(sign)), above.before)
+            continue
+        found = {_JOINED[x] for x in lower if x in _JOINED} if item.kind == "value" else set[str]()
+        joins = found.pop() if len(found) == 1 else ""
+        made.append(item)
+    for item in made:
+        alone = not any(x in item.text[1:] for x in "+-−*") and _JOINED.keys() & {x.lower() for x in item.before}
+        yield _Item("other", item.text, item.before) if item.kind == "value" and alone else item
+
+
+def _only_says_what(words: Sequence[str]) -> bool:
+    """Whether words in front of a value only say what it is: and the damper's; and they may be an "and" before that."""
+    bare = [x for x in words if x not in _JOINS and x != ","]
+    return len(bare) <= _MOST_WORDS and not set(bare) & (_IS - {"the", "s"} | {"(", "=", ":"} | CHANGING)
+
+
+def _with_sign(left: str, sign: str, right: str, *, spoken: bool) -> str:
+    """Two values with a sign between them."""
+    if sign == "*" or right[0] in "+-−":
+        right = right if right.isalnum() else f"({right})"
+    if sign == "*" and not left.isalnum() and (spoken or left[0] != "("):
+        left = f"({left})"
+    return f"{left} {sign} {right}"
 
 
 # -- pairs ------------------------------------------------------------------------------------------------------------
