@@ -229,7 +229,7 @@ def _works(why: Reasoning, n: NumbersAt) -> Table:
         title = f"{capital(m.body.title)}{', moment [N m]' if m.turning else ''}"
         rows.append((text(title), text(f"({', '.join(map(figure, R))})"), *(text(figure(w)) for w in works)))
     if any(x.passed for x in n.laws):
-        rows.append((text("less what is passed on"), text(""), *(text(figure(-x.passed)) for x in n.laws)))
+        rows.append((text("less what is no constraint force"), text(""), *(text(figure(-x.passed)) for x in n.laws)))
     rows.append((text("sum"), text(""), *(text(figure(x.held - x.passed)) for x in n.laws)))
     if why.derived.shares.rows:
         rows.append((text("of the multipliers"), text(""), *(text(figure(x.rows)) for x in n.laws)))

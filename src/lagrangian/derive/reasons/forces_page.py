@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any, cast
 
@@ -16,6 +16,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.reasons.held import Holding
 from lagrangian.derive.reasons.laws import wiggle_check
+from lagrangian.derive.reasons.loads import Through
 from lagrangian.derive.reasons.motion import Moving
 from lagrangian.derive.reasons.result import Reasoning
 from lagrangian.derive.reasons.shown import (
@@ -204,20 +205,46 @@ def _pull(why: Reasoning, hold: Holding) -> Iterator[Item]:
         yield formula(Name("push", index), short(why, hold.force), note=text("across its path: the push of the track"))
 
 
-def _passed_on(why: Reasoning) -> Iterator[Item]:
-    """What acts on parts without mass is in R."""
-    titles = list(dict.fromkeys(item.element.title for item in why.applied.passed))
-    if not titles:
-        return
-    one = len(titles) == 1
-    yield text(
-        f"{capital(and_(titles))} act{'s' if one else ''}, at one end at least, on a part without mass (a lever, a "
-        "rod, a shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
-        Name("R"),
+THROUGH: Mapping[Through, tuple[str, str]] = {
+    "part": (
+        "{s:acts|act}, at one end at least, on a part without mass (a lever, a rod, a shaft). Such a part needs no "
+        "force to be accelerated, so it passes on in full what acts on it: ",
         " contains that, too. This part of ",
-        Name("R"),
-        " is known, and it may do work.",
-    )
+    ),
+    "deflection": (
+        "{s:is|are} described by how far {s:it is|they are} stretched or turned. That says what work {s:it does|they "
+        "do}, but not where {s:it pulls|they pull} at the masses, so what {s:it does|they do} to them is in ",
+        ". This part of ",
+    ),
+    "energy": (
+        "{s:is|are} described by {s:an energy or a generalized force|energies or generalized forces}. That says what "
+        "work {s:it does|they do}, but not on which masses {s:it acts|they act}, so what {s:it does|they do} to "
+        "them is in ",
+        ". This part of ",
+    ),
+}
+"""What is said of elements that are known as loads on no body, by the reason; ``{s:…|…}`` for one and for several."""
+
+
+def _passed_on(why: Reasoning) -> Iterator[Item]:
+    """What acts on parts without mass, or on masses that were not named, is in R."""
+    for through, (first, then) in THROUGH.items():
+        titles = list(dict.fromkeys(x.element.title for x in why.applied.passed if x.through == through))
+        if titles:
+            said = _for_number(first, len(titles) == 1)
+            yield text(f"{capital(and_(titles))} {said}", Name("R"), then, Name("R"), " may do work.")
+
+
+def _for_number(words: str, one: bool) -> str:
+    """The words with what is said of one thing, or of several."""
+    found = ""
+    for part in words.split("{s:"):
+        if "}" in part:
+            choice, _, rest = part.partition("}")
+            single, _, many = choice.partition("|")
+            part = (single if one else many) + rest
+        found += part
+    return found
 
 
 # -- (2), (3) -------------------------------------------------------------------------------------------------------

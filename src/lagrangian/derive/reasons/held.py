@@ -18,8 +18,9 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
+from lagrangian.derive.reasons.fixed import FixedPoints
 from lagrangian.derive.reasons.laws import reaction
-from lagrangian.derive.reasons.loads import AppliedLoads, FixedPoints
+from lagrangian.derive.reasons.loads import AppliedLoads
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.model import Body, Point, Torque, Words
 from lagrangian.model.elements.base import difference
