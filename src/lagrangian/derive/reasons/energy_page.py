@@ -298,11 +298,13 @@ def _multiplied(why: Reasoning) -> Iterator[Item]:
         return
     named = and_([e.title for e in why.derived.model.constraints])
     one = why.spared.multipliers == 1
+    known = "" if why.numbers is not None else " as far as the constraints do not repeat each other"
     tell = "The multiplier tells the force" if one else "The multipliers tell the forces"
     yield text(
-        f"{tell} of {named}, so {'this is' if one else 'these are'} calculated with the motion. In return the "
-        "coordinates need not be independent, and no constraint has to be solved. Independent coordinates, where they "
-        f"exist, or an elimination of the multiplier{'' if one else 's'} give fewer equations and no constraint force."
+        f"{tell} of {named}, so {'this is' if one else 'these are'} calculated with the motion{known}. In return "
+        "the coordinates need not be independent, and no constraint has to be solved. Independent coordinates, where "
+        f"they exist, or an elimination of the multiplier{'' if one else 's'} give fewer equations and no constraint "
+        "force."
     )
 
 
