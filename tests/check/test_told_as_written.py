@@ -145,6 +145,24 @@ def test_a_body_that_turns_with_one_rate_alone_is_quoted_without_a_sign() -> Non
     assert told == "Rigid body 'roll' turns with (R - r)*phi'/r alone."
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    ["m2*(a^2*u'^2 + b^2*w'^2 + 2*a*b*u'*w'*cos(w))", "m2*((a*u' + b*w'*cos(w))^2 + (b*w'*sin(w))^2)"],
+)
+def test_a_particle_does_not_turn_but_one_rate_stands_for_the_sum_in_its_velocity(wrong: str) -> None:
+    """Two rods without mass, w counted from the first: m₂ has (a u̇)² + b² (u̇ + ẇ)² + 2 a b u̇ (u̇ + ẇ) cos w."""
+    s = lg.System("two rods")
+    u, w, a, b = s.coordinate("u"), s.coordinate("w"), s.parameter("a"), s.parameter("b")
+    knee = s.origin + (a * sp.sin(u), -a * sp.cos(u))
+    s.particle(s.parameter("m1"), at=knee, name="m1")
+    s.particle(s.parameter("m2"), at=knee + (b * sp.sin(u + w), -b * sp.cos(u + w)), name="m2")
+    s.gravity((0, -1))
+    right = "m2*(a^2*u'^2 + b^2*(u' + w')^2 + 2*a*b*u'*(u' + w')*cos(w))"
+    assert s.derive().check(f"T = m1*a^2*u'^2/2 + {right}/2").findings[0].status.right
+    told = said(s.derive(), f"T = m1*a^2*u'^2/2 + {wrong}/2")
+    assert told[0] == "In the velocity of particle 'm2', w' alone stands in place of the sum of the rates."
+
+
 def test_a_missing_term_with_a_moment_of_inertia_belongs_to_a_rotation() -> None:
     energies = ROLLER.format("(R psi' - (R - r) phi')^2/r^2")
     verdict = drum().check(

@@ -13,7 +13,7 @@ import mpmath
 from lagrangian.derive.context import big_xi
 from lagrangian.derive.reasons.at_a_state import NumbersAt
 from lagrangian.derive.reasons.laws import AGREE, Law, chain_check, kinetic_check, potential_check, work_check
-from lagrangian.derive.reasons.result import Reasoning
+from lagrangian.derive.reasons.result import EquationCount, Reasoning
 from lagrangian.derive.reasons.shown import (
     FORCE,
     LONG,
@@ -229,7 +229,7 @@ def _works(why: Reasoning, n: NumbersAt) -> Table:
         title = f"{capital(m.body.title)}{', moment [N m]' if m.turning else ''}"
         rows.append((text(title), text(f"({', '.join(map(figure, R))})"), *(text(figure(w)) for w in works)))
     if any(x.passed for x in n.laws):
-        rows.append((text("less what is passed on"), text(""), *(text(figure(-x.passed)) for x in n.laws)))
+        rows.append((text("less what is no constraint force"), text(""), *(text(figure(-x.passed)) for x in n.laws)))
     rows.append((text("sum"), text(""), *(text(figure(x.held - x.passed)) for x in n.laws)))
     if why.derived.shares.rows:
         rows.append((text("of the multipliers"), text(""), *(text(figure(x.rows)) for x in n.laws)))
@@ -249,52 +249,78 @@ def figure(x: Any) -> str:
 
 
 def spared_part(why: Reasoning) -> Part:
-    """The numbers of equations and unknowns by both ways."""
+    """The numbers of equations and unknowns by both ways, in the same coordinates."""
     s = why.spared
-    dimension = why.derived.model.dimension
-    of: list[str] = []
-    if s.particles:
-        of.append(f"{dimension} for each of {_counted(s.particles, 'particle')}")
-    if s.rigid_bodies:
-        of.append(f"{3 if dimension == 2 else 6} for each of {_counted(s.rigid_bodies, 'rigid body', 'rigid bodies')}")
     m = s.multipliers
+    free = text("free bodies: F = ma and the constraints" if m else "free bodies: F = ma")
     rows = (
-        (
-            text("free bodies: F = ma"),
-            text(str(s.equations)),
-            text(_unknowns(s.accelerations, s.forces, "constraint force")),
-        ),
-        (
-            text("Lagrange"),
-            text(str(s.coordinates + m)),
-            text(_unknowns(s.coordinates, m, "multiplier") if m else _counted(s.coordinates, "acceleration")),
-        ),
+        (free, text(str(s.equations)), text(_unknowns(s.accelerations, s.forces, "constraint force"))),
+        (text("Lagrange"), text(str(s.coordinates + m)), text(_unknowns(s.coordinates, m, "multiplier"))),
     )
     items: list[Item] = [
         Table((text("way"), text("equations"), text("unknowns")), rows),
-        text(
-            f"Free bodies: {and_(of)}. A part without mass, and a pin between two such parts, would add still more. By "
-            "Lagrange no free body has to be drawn, and ",
-            Name("R"),
-            " never has to be calculated.",
-        ),
+        text(f"Free bodies: {and_(_free_bodies(why))}. ", *_saved(s)),
+        *_multiplied(why),
         *_known(why),
     ]
     return Part(text("What Lagrange spared you"), tuple(items))
 
 
+def _free_bodies(why: Reasoning) -> list[str]:
+    """How many equations each kind of body has, and every constraint."""
+    s, plane = why.spared, why.derived.model.dimension == 2
+    of: list[str] = []
+    if s.particles:
+        of.append(f"{2 if plane else 3} for each of {_counted(s.particles, 'particle')}")
+    if s.rigid_bodies:
+        of.append(f"{3 if plane else 6} for each of {_counted(s.rigid_bodies, 'rigid body', 'rigid bodies')}")
+    if s.multipliers:
+        of.append(f"{_counted(s.multipliers, 'equation')} of constraints")
+    return of
+
+
+def _saved(s: EquationCount) -> Iterator[str | Left]:
+    """What is not needed by Lagrange's way."""
+    if s.equations <= s.coordinates + s.multipliers:
+        yield "So both ways have equally many equations and unknowns: Lagrange spares none of them here, but no free "
+        yield "body has to be drawn."
+        return
+    yield "A part without mass, and a pin between two such parts, would add still more. By Lagrange no free body has "
+    if s.multipliers:
+        yield from ("to be drawn, and of ", Name("R"), " only what the multipliers tell is calculated.")
+    else:
+        yield from ("to be drawn, and ", Name("R"), " never has to be calculated.")
+
+
+def _multiplied(why: Reasoning) -> Iterator[Item]:
+    """What multipliers are, and what they are good for."""
+    if not why.spared.multipliers:
+        return
+    named = and_([e.title for e in why.derived.model.constraints])
+    one = why.spared.multipliers == 1
+    known = "" if why.numbers is not None else " as far as the constraints do not repeat each other"
+    tell = "The multiplier tells the force" if one else "The multipliers tell the forces"
+    yield text(
+        f"{tell} of {named}, so {'this is' if one else 'these are'} calculated with the motion{known}. In return "
+        "the coordinates need not be independent, and no constraint has to be solved. Independent coordinates, where "
+        f"they exist, or an elimination of the multiplier{'' if one else 's'} give fewer equations and no constraint "
+        "force."
+    )
+
+
 def _known(why: Reasoning) -> Iterator[Item]:
     """Why fewer components of R are unknown than there are equations."""
     s, rods = why.spared, [hold for hold in why.holds if hold.kind == "rod"]
-    free = s.equations - s.forces
-    if not 0 < s.forces < s.equations:
+    components = s.equations - s.multipliers
+    free = components - s.forces
+    if not 0 < s.forces < components:
         return
     turns = " and the moments have" if s.rigid_bodies else " has"
     way = "the one way" if free == 1 else f"the {free} ways"
     only = (" This one is the pull ", Name("pull"), ".") if len(rods) == len(why.holds) == s.forces == 1 else ()
     yield text(
         Name("R"),
-        f"{turns} {_counted(s.equations, 'component')}. In {way} in which the masses can move, nothing holds them: so "
+        f"{turns} {_counted(components, 'component')}. In {way} in which the masses can move, nothing holds them: so "
         f"{_counted(free, 'component')} {'is' if free == 1 else 'are'} known, and {s.forces} "
         f"{'is' if s.forces == 1 else 'are'} unknown.",
         *only,

@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any, cast
 
@@ -14,8 +14,10 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
-from lagrangian.derive.reasons.held import Holding
+from lagrangian.derive.reasons.holders_page import held_by
+from lagrangian.derive.reasons.holding import Holding
 from lagrangian.derive.reasons.laws import wiggle_check
+from lagrangian.derive.reasons.loads import Through
 from lagrangian.derive.reasons.motion import Moving
 from lagrangian.derive.reasons.result import Reasoning
 from lagrangian.derive.reasons.shown import (
@@ -78,14 +80,13 @@ def newton(why: Reasoning) -> Part:
     if len(bodies) > MOST_LISTED:
         items.append(text(f"There are {len(bodies)} bodies; the numbers below say what holds each of them."))
         return Part(text("F = ma for every mass"), tuple(items))
-    for hold in why.holds:
-        items += _body(why, hold, alone=len(bodies) == 1)
+    for body in bodies:
+        items += _body(why, body, alone=len(bodies) == 1)
     items += _passed_on(why)
     return Part(text("F = ma for every mass"), tuple(items))
 
 
-def _body(why: Reasoning, hold: Holding, *, alone: bool) -> Iterator[Item]:
-    body = hold.body
+def _body(why: Reasoning, body: Body, *, alone: bool) -> Iterator[Item]:
     acting = [load.element.title for load in why.applied.loads if load.body is body]
     acting = list(dict.fromkeys(acting))
     title = capital(body.title)
@@ -107,11 +108,14 @@ def _body(why: Reasoning, hold: Holding, *, alone: bool) -> Iterator[Item]:
                 component(letter, why, m, axis), *_newton(why, m, axis, reaction), note=_still_note(m, axis, reaction)
             )
             free += [AXES[axis]] if not m.turning and _vanishes(why, reaction) else []
-    if free:
+    for hold in why.holds:
+        if hold.body is body:
+            yield from _pull(why, hold)
+    yield held_by(why, body)
+    if free and why.holders(body):
         yield text(
             f"Nothing holds it along {and_(free)}: there ", Name("R"), " is 0, as the equations of motion will say."
         )
-    yield from _pull(why, hold)
     yield from _without_acceleration(why, body)
 
 
@@ -193,31 +197,56 @@ def _vanishes(why: Reasoning, reaction: Form) -> bool:
 
 def _pull(why: Reasoning, hold: Holding) -> Iterator[Item]:
     """The pull of a rod, or the push of a track."""
-    if hold.force is None or hold.force.is_zero:
+    if hold.force is None or not hold.named:
         return
-    index = index_of(why, hold.body, "pull")
+    letter = Name("pull" if hold.kind == "rod" else "push", index_of(why, hold.body, "pull"))
     if hold.kind == "rod":
-        letter = Name("pull", index)
         words = text(letter, " is the pull of the rod, string or round track, towards the pivot at ", *hold.on)
-        yield formula(letter, short(why, hold.force), note=words)
-    elif len([m for m in why.moving if m.body is hold.body]) == 1:
-        yield formula(Name("push", index), short(why, hold.force), note=text("across its path: the push of the track"))
+    else:
+        words = text("across its path: the push of the track")
+    yield formula(letter, short(why, hold.force), note=words)
+
+
+THROUGH: Mapping[Through, tuple[str, str]] = {
+    "part": (
+        "{s:acts|act}, at one end at least, on a part without mass (a lever, a rod, a shaft). Such a part needs no "
+        "force to be accelerated, so it passes on in full what acts on it: ",
+        " contains that, too. This part of ",
+    ),
+    "deflection": (
+        "{s:is|are} described by how far {s:it is|they are} stretched or turned. That says what work {s:it does|they "
+        "do}, but not where {s:it pulls|they pull} at the masses, so what {s:it does|they do} to them is in ",
+        ". This part of ",
+    ),
+    "energy": (
+        "{s:is|are} described by {s:an energy or a generalized force|energies or generalized forces}. That says what "
+        "work {s:it does|they do}, but not on which masses {s:it acts|they act}, so what {s:it does|they do} to "
+        "them is in ",
+        ". This part of ",
+    ),
+}
+"""What is said of elements that are known as loads on no body, by the reason; ``{s:…|…}`` for one and for several."""
 
 
 def _passed_on(why: Reasoning) -> Iterator[Item]:
-    """What acts on parts without mass is in R."""
-    titles = list(dict.fromkeys(item.element.title for item in why.applied.passed))
-    if not titles:
-        return
-    one = len(titles) == 1
-    yield text(
-        f"{capital(and_(titles))} act{'s' if one else ''}, at one end at least, on a part without mass (a lever, a "
-        "rod, a shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
-        Name("R"),
-        " contains that, too. This part of ",
-        Name("R"),
-        " is known, and it may do work.",
-    )
+    """What acts on parts without mass, or on masses that were not named, is in R."""
+    for through, (first, then) in THROUGH.items():
+        titles = list(dict.fromkeys(x.element.title for x in why.applied.passed if x.through == through))
+        if titles:
+            said = _for_number(first, len(titles) == 1)
+            yield text(f"{capital(and_(titles))} {said}", Name("R"), then, Name("R"), " may do work.")
+
+
+def _for_number(words: str, one: bool) -> str:
+    """The words with what is said of one thing, or of several."""
+    found = ""
+    for part in words.split("{s:"):
+        if "}" in part:
+            choice, _, rest = part.partition("}")
+            single, _, many = choice.partition("|")
+            part = (single if one else many) + rest
+        found += part
+    return found
 
 
 # -- (2), (3) -------------------------------------------------------------------------------------------------------

@@ -2,7 +2,8 @@
 
 A spring between two bodies, a weight, a force at a point of a body act on bodies: each is a `Load`. A torque on a lever
 without mass, or a damper whose deflection is an angle of such a lever, acts on no body: the lever passes it on, so
-that it is in the constraint forces of the masses that the lever carries. Each of these is a `PassedOn`.
+that it is in the constraint forces of the masses that the lever carries. Nor is it known on which bodies a rope pulls
+that is described by how far it is stretched, or what has an energy alone. Each of these is a `PassedOn`.
 """
 
 # SymPy has no type stubs:
@@ -12,19 +13,21 @@ that it is in the constraint forces of the masses that the lever carries. Each o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
+from lagrangian.derive.reasons.fixed import FixedPoints
 from lagrangian.derive.reasons.motion import Column, Moving, dot, in_body_axes
 from lagrangian.model import Body, Damper, Element, Force, Frame, Friction, Gravity, Point, Spring, Torque, time
 from lagrangian.model.elements.base import difference
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.model.elements.vectors import norm
-from lagrangian.records import dataclass, field
+from lagrangian.model.geometry import turned
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 
@@ -41,13 +44,21 @@ class Load(Brief):
     torque: tuple[sp.Expr, ...]
 
 
+Through: TypeAlias = Literal["part", "deflection", "energy"]
+
+
 @dataclass(frozen=True, eq=False)
 class PassedOn(Brief):
-    """An effort on something without mass; its virtual work is effort · ∂rate/∂ξ̇_j δξ_j."""
+    """An effort that is known as a load on no body; its virtual work is effort · ∂rate/∂ξ̇_j δξ_j.
+
+    ``through`` says why: it acts on a "part" without mass; a "deflection" of bodies does not say where it acts on them;
+    an "energy" or a generalized force says nothing of bodies.
+    """
 
     element: Element
     effort: sp.Expr
     rate: sp.Expr
+    through: Through = "part"
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,52 +67,6 @@ class AppliedLoads:
 
     loads: tuple[Load, ...]
     passed: tuple[PassedOn, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class FixedPoints:
-    """Finds the body in which a point is fixed, and whether a coordinate moves the point."""
-
-    context: Context
-    moving: tuple[Moving, ...]
-    _known: dict[tuple[int, int], bool] = field(default_factory=dict[tuple[int, int], bool])
-
-    def body_of(self, point: Point) -> Body | None:
-        """The body in which a point is fixed, None if there is none; a body at that very point first."""
-        bodies = self.context.model.bodies
-        same = [b for b in bodies if b.at is point]
-        return next(iter(same), None) or next((b for b in bodies if self.fixed_in(point, b)), None)
-
-    def fixed_in(self, point: Point, body: Body) -> bool:
-        """Whether a point never moves relative to a body: R^T (r_P − r_G) does not change."""
-        key = (id(point), id(body))
-        if key not in self._known:
-            self._known[key] = point is body.at or self._fixed(point, body)
-        return self._known[key]
-
-    def _fixed(self, point: Point, body: Body) -> bool:
-        arm = difference(self.context.model, body.at, point)
-        if body.axes is None:
-            return all(self.context.form(x).is_zero for x in arm)
-        return all(not self.context.form(x).moves for x in self.along_axes(body, arm))
-
-    def along_axes(self, body: Body, vector: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
-        """The components of a vector in the axes of a body, in the plane too."""
-        if body.axes is None:
-            return tuple(vector)
-        expand = self.context.model.expand
-        turn = body.axes.rotation
-        return tuple(
-            sp.Add(*(expand(turn[i, j]) * x for i, x in enumerate(vector)))  # type: ignore[operator]
-            for j in range(len(vector))
-        )
-
-    def still(self, point: Point) -> bool:
-        """Whether no coordinate moves a point: it is on the ground, or on a support that moves as prescribed."""
-        symbols = set(self.context.symbols)
-        return not any(
-            symbols & bounded.names(x) for x in map(self.context.model.expand, self.context.model.position(point))
-        )
 
 
 def applied_loads(context: Context, moving: tuple[Moving, ...]) -> AppliedLoads:
@@ -161,10 +126,10 @@ def _of(places: FixedPoints, element: Element) -> Iterator[Load | PassedOn]:
         energy = element.potential(model)
         for c in model.coordinates:
             if (slope := bounded.diff(energy, c.symbol)) != 0:
-                yield PassedOn(element, -slope, c.rate)
+                yield PassedOn(element, -slope, c.rate, "energy")
     else:
         for action in element.works(model):
-            yield PassedOn(element, action.effort, action.rate)
+            yield PassedOn(element, action.effort, action.rate, "energy")
 
 
 def _no_torque(body: Body) -> tuple[sp.Expr, ...]:
@@ -182,15 +147,20 @@ def _at(places: FixedPoints, element: Element, point: Point, force: tuple[sp.Exp
             if f != 0:
                 yield PassedOn(element, f, v)
         return
+    yield _load_at(places, element, body, point, force)
+
+
+def _load_at(places: FixedPoints, element: Element, body: Body, point: Point, force: tuple[sp.Expr, ...]) -> Load:
+    """A force on a body at a point, with its moment about the centre of mass."""
+    model = places.context.model
     if not body.tensor:
-        yield Load(element, body, force, ())
-        return
+        return Load(element, body, force, ())
     arm = difference(model, body.at, point)
     if len(arm) == 2:
         moment: tuple[sp.Expr, ...] = (arm[0] * force[1] - arm[1] * force[0],)
     else:
         moment = tuple(arm[i] * force[j] - arm[j] * force[i] for i, j in ((1, 2), (2, 0), (0, 1)))
-    yield Load(element, body, force, tuple(map(model.expand, in_body_axes(body, moment))))
+    return Load(element, body, force, tuple(map(model.expand, in_body_axes(body, moment))))
 
 
 def _deflected(places: FixedPoints, element: Spring | Damper | Force | Friction) -> Iterator[Load | PassedOn]:
@@ -205,7 +175,7 @@ def _deflected(places: FixedPoints, element: Spring | Damper | Force | Friction)
         assert action.displacement is not None
         effort, rate, displacement = action.effort, action.rate, action.displacement
     if element.between is not None and isinstance(element, Spring) and _moves(places, element.rest):
-        yield PassedOn(element, effort, rate)
+        yield PassedOn(element, effort, rate, "deflection")
     elif element.between is not None:
         start, end = element.between
         delta = difference(model, start, end)
@@ -259,8 +229,25 @@ def _along(
 ) -> Iterator[Load | PassedOn]:
     """An effort on a deflection: between two bodies, or a body and the ground, whose distance or angle it is."""
     found = _straight(places, element, effort, displacement) or _twisted(places, element, effort, displacement)
-    found = found or _stretched(places, element, effort, displacement)
-    yield from found or [PassedOn(element, effort, rate)]
+    found = found or _stretched(places, element, effort, displacement) or _slid(places, element, effort, displacement)
+    yield from found or [PassedOn(element, effort, rate, _through(places, displacement))]
+
+
+def _through(places: FixedPoints, displacement: sp.Expr) -> Through:
+    """Whether a deflection that is no distance or angle of bodies involves a part without mass.
+
+    It does not where every coordinate in it moves a body along a straight line or turns one that has inertia, as the
+    load and the drum at the ends of a rope: y − R θ.
+    """
+    context = places.context
+    own = {
+        j
+        for m in places.moving
+        for j, column in enumerate(m.columns)
+        if any(x.parts for x in column) and not any(x.moves for x in column)
+    }
+    held = (j for j, c in enumerate(context.model.coordinates) if context.form(displacement).diff(c.symbol).parts)
+    return "deflection" if all(j in own for j in held) else "part"
 
 
 def _pairs(places: FixedPoints) -> Iterator[tuple[Body | None, Body]]:
@@ -314,13 +301,39 @@ def _stretched(places: FixedPoints, element: Element, effort: sp.Expr, displacem
     return []
 
 
+def _slid(places: FixedPoints, element: Element, effort: sp.Expr, displacement: sp.Expr) -> list[Load]:
+    """The deflection is how far a body has moved along a straight line in the axes of another that turns."""
+    context, model = places.context, places.context.model
+    slopes = [context.form(bounded.diff(displacement, c.symbol)) for c in model.coordinates]
+    at = next((j for j, s in enumerate(slopes) if not s.is_zero), None)
+    if at is None or not (slopes[at].is_number and abs(slopes[at].expr()) == 1):
+        return []
+    for a, b in _pairs(places):
+        if a is None or a.axes is None:
+            continue
+        arm = [context.form(x) for x in places.along_axes(a, difference(model, a.at, b.at))]
+        u = [x.diff(model.coordinates[at].symbol) * slopes[at] for x in arm]
+        if any(x.moves for x in u) or not (dot(context, u, u) - context.algebra.number(1)).is_zero:
+            continue
+        if all(
+            (x.diff(c.symbol) - n * s).is_zero
+            for c, s in zip(model.coordinates, slopes, strict=True)
+            for x, n in zip(arm, u, strict=True)
+        ):
+            along = turned(a.axes.rotation, [effort * x.expr() for x in u])
+            force = tuple(map(model.expand, along))
+            opposite = _load_at(places, element, a, b.at, tuple(-x for x in force))
+            return [Load(element, b, force, _no_torque(b)), opposite]
+    return []
+
+
 def _pair(element: Element, a: Body | None, b: Body, force: tuple[sp.Expr, ...]) -> list[Load]:
     pair = [Load(element, b, force, _no_torque(b))]
     return pair if a is None else [*pair, Load(element, a, tuple(-f for f in force), _no_torque(a))]
 
 
 def _hinged(places: FixedPoints, element: Element, effort: sp.Expr, displacement: sp.Expr) -> list[Load]:
-    """The deflection is, up to a constant, the angle of a body's frame in space about its axis n.
+    """The deflection is, up to a constant and a sign, the angle of a body's frame in space about its axis n.
 
     The torque E n acts on that body and −E n on the body that its frame turns on, if it does not turn on the ground; n
     has the same components in the axes of both.
@@ -329,21 +342,20 @@ def _hinged(places: FixedPoints, element: Element, effort: sp.Expr, displacement
     turning = [b for b in model.bodies if b.tensor and b.axes is not None and b.axes.axis is not None]
     for b in turning:
         assert b.axes is not None and b.axes.axis is not None
-        if places.context.form(model.expand(b.axes.angle) - displacement).moves:
-            continue
+        sign = _turns(places, model.expand(b.axes.angle), displacement)
         base = b.axes.parent
         a = next((x for x in turning if x.axes is base), None)
-        if base is not None and a is None:
+        if sign == 0 or (base is not None and a is None):
             continue
-        torque, zero = tuple(effort * n for n in b.axes.axis), (sp.S.Zero,) * 3
+        torque, zero = tuple(sign * effort * n for n in b.axes.axis), (sp.S.Zero,) * 3
         pair = [Load(element, b, zero, torque)]
         return pair if a is None else [*pair, Load(element, a, zero, tuple(-x for x in torque))]
     return []
 
 
 def _twisted(places: FixedPoints, element: Element, effort: sp.Expr, displacement: sp.Expr) -> list[Load]:
-    """The deflection is the angle of a body in the plane, or between two bodies, up to a constant."""
-    context, model = places.context, places.context.model
+    """The deflection is the angle of a body in the plane, or between two bodies, up to a constant and a sign."""
+    model = places.context.model
     if model.dimension == 3:
         return _hinged(places, element, effort, displacement)
     zero = (sp.S.Zero,) * model.dimension
@@ -355,7 +367,13 @@ def _twisted(places: FixedPoints, element: Element, effort: sp.Expr, displacemen
     for a, b in _pairs(places):
         if b not in angles or (a is not None and a not in angles):
             continue
-        if not context.form(angles[b] - (0 if a is None else angles[a]) - displacement).moves:
-            pair = [Load(element, b, zero, (effort,))]
-            return pair if a is None else [*pair, Load(element, a, zero, (-effort,))]
+        if sign := _turns(places, angles[b] - (0 if a is None else angles[a]), displacement):
+            pair = [Load(element, b, zero, (sign * effort,))]
+            return pair if a is None else [*pair, Load(element, a, zero, (-sign * effort,))]
     return []
+
+
+def _turns(places: FixedPoints, angle: sp.Expr, displacement: sp.Expr) -> int:
+    """1 if a deflection is an angle up to a constant, −1 if it is the angle counted the other way round, else 0."""
+    form = places.context.form
+    return next((sign for sign in (1, -1) if not form(displacement - sign * angle).moves), 0)

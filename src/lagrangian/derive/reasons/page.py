@@ -82,7 +82,7 @@ def why(d: Derived) -> Why:
         loads,
         reactions,
         laws(d, parts, loads),
-        holds(context, parts, loads),
+        holds(context, parts, loads, d.shares.rows),
         numbers(d, parts, loads),
         spared(d),
         indices(d.model),

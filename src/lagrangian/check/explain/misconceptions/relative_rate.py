@@ -33,7 +33,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             whole: tuple[str | sp.Expr, ...] = (s.v[k] + given,) if given != 0 else ("the sum of the rates",)
             what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", speed, " alone.")
             said = text(f"In the velocity of {body.title}, ", s.v[k], " alone stands in place of ", *whole, ".")
-            both = said if given != 0 and not turned else what
+            both = what if turned else said
             told = sum(any(w.has(v) for w in s.omega(body)) for v in s.v) == 1  # as another angular velocity
             for change, words in ((translation + rotation, both), (rotation, what), (translation, said)):
                 if change != 0 and not (told and change == rotation):
