@@ -1,6 +1,11 @@
 """Expressions that share parts are evaluated as each one alone, whatever is known of their parts."""
 
+from collections.abc import Callable
+from typing import Any
+
+import mpmath
 import numpy as np
+import pytest
 import sympy as sp
 
 from built_in import derivation
@@ -8,7 +13,7 @@ from effort import at_most
 from lagrangian import bounded
 from lagrangian.bounded import sizes
 from lagrangian.bounded.effort import CallCount
-from lagrangian.derive.sampling import CompiledExpressions, States
+from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 
 
 def test_parts_that_were_seen_before() -> None:
@@ -71,3 +76,14 @@ def test_what_is_counted_makes_its_own_graph() -> None:
     own = CompiledExpressions([expr])
     with at_most(1_000):
         assert CallCount(1_000, anywhere=True).run(lambda: CompiledExpressions([expr])).graph is not own.graph
+
+
+@pytest.mark.parametrize("argument", [sp.S.Half, -sp.S.Half, sp.Rational(1, 3), sp.Integer(2)])
+@pytest.mark.parametrize("function", [sp.sin, sp.cos, sp.exp, sp.tan])
+def test_functions_of_numbers_have_fifty_digits(function: Callable[[Any], Any], argument: Any) -> None:
+    """cos ½ too, whose argument a double represents exactly. Oracle: mpmath."""
+    states = States(derivation("cart-pole").model, 1)
+    found = CompiledExpressions([3 * function(argument)]).exactly(states, 0)[0]
+    with mpmath.workdps(DIGITS):
+        meant = 3 * getattr(mpmath, function.__name__)(mpmath.mpf(int(argument.p)) / int(argument.q))
+        assert abs(found - meant) < 1e-45

@@ -169,7 +169,9 @@ class CompiledExpressions:
                     numbers.append(part)
             else:
                 stack += part.args
-                if part.args and isinstance(part.args[0], sp.Integer) and isinstance(part, (sp.Pow, sp.Function)):
+                whole = bool(part.args) and isinstance(part.args[0], sp.Integer)
+                halved = isinstance(part, sp.Function) and part.args[0] in (sp.S.Half, -sp.S.Half)
+                if (whole and isinstance(part, (sp.Pow, sp.Function))) or halved:
                     roots.append(part)
         return names, numbers, roots
 
@@ -193,7 +195,7 @@ class CompiledExpressions:
             dummy = sp.Symbol(f"number {exact}")
             self._numbers[dummy] = exact
             table[number] = dummy
-        for root in roots:  # the graph would evaluate √15 and sin 2 as doubles
+        for root in roots:  # the graph would evaluate √15, sin 2 and cos ½ as doubles
             whole, *others = root.args
             if all(isinstance(x, sp.Rational) and x.q > 1 for x in others):
                 dummy = table.get(whole, sp.Symbol(f"number {whole}"))
