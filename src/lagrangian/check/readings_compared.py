@@ -4,17 +4,28 @@ from __future__ import annotations
 
 import re
 
+import sympy as sp
+
 from lagrangian.check.reading import Answer
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.errors import ParseError
+from lagrangian.model import Model
+from lagrangian.read.letters import key
 
 ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
 """A line that takes an entry of a state: v = y(3)."""
+_FRACTION = re.compile(
+    r"(?<![\w.^)\]}/])\d{1,3}[ ]?/[ ]?\d{1,3}[ ]{1,3}(?:\([ ]?)?(?P<name>[^\W\d_]\w{0,24}+)"
+    r"(?!['’′″\u0307\u0308\u20db\u20dc(\[])"
+)
+"""A fraction of numbers in front of a name: 1/2 m, 1/2 (J + m r²)."""
 
 
 def program_of(answer: Answer) -> Answer | None:
     """The reading in which an answer is a program that is carried out, if it is one and was not read so."""
+    if answer.computed is None and not answer.program:
+        return None
     try:
         return next((x for other in answer.others[-1:] if (x := other()).program), None)
     except ParseError:
@@ -58,3 +69,25 @@ def wrong_together(verdict: Verdict) -> set[tuple[int, str]]:
     return {
         (f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG and accelerates(f.line.expr)
     }
+
+
+def has_right_denominators(model: Model, answer: Answer, verdict: Verdict) -> bool:
+    """Whether an energy is right in which fractions of numbers stand in front of parameters, as in 1/2 m x'², so that
+    it would be wrong with the other denominators, 1/(2 m).
+
+    In every term of it something moves: a constant more would not make V wrong. With values that are given, the
+    parameter may be 1, which makes both the same.
+    """
+    if any(line.kind == "given" for line in answer.lines):
+        return False
+    names = {key(p.name) for p in model.parameters if p.value is None or abs(float(p.value)) != 1}
+    moving = [c.symbol for c in model.coordinates]
+    return any(
+        f.status.right
+        and f.line.kind in ("T", "V", "L")
+        and not f.line.beside
+        and f.line.text.count("=") == 1
+        and any(key(m["name"]) in names for m in _FRACTION.finditer(f.line.text))
+        and all(term.has(*moving) for term in sp.Add.make_args(f.line.expr))
+        for f in verdict.findings
+    )

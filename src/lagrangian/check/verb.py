@@ -41,10 +41,11 @@ from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.not_judged import unjudged_above, without_a_row
 from lagrangian.check.parts_above import with_parts_above
-from lagrangian.check.reading import Answer, parse_answer
+from lagrangian.check.reading import Answer, parse_answer, reads_flipped
 from lagrangian.check.readings_compared import (
     ENTRY,
     computes_right,
+    has_right_denominators,
     is_misread,
     of_comments,
     program_of,
@@ -177,21 +178,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     without = None if answer.read_without is None else cache(answer.read_without)
     answer = replace(answer, others=tuple(map(cache, answer.others)), read_without=without)  # what is read is read once
     own = _deciding(derivation, answer)
-    wrong: set[tuple[int, str]] = set()
-    for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
-        try:
-            other = reading()
-        except ParseError:
-            continue
-        for decides in own if other is answer else _deciding(derivation, other):
-            verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
-            needed = of_comments(wrong) if other.program else wrong
-            if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
-                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
-                    return _of_readings(derivation, computed, hint)
-                return _told(_apart(derivation, other, verdict), other, decides.notes)
-            wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
-            wrong |= wrong_together(verdict) if other is answer and decides.together else set()
+    if (right := _right_reading(derivation, answer, own, hint)) is not None:
+        return right
     decides = own[-1]
     sought = hint or int(_needs_mistakes(derivation, answer, decides.lines))
     verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
@@ -228,6 +216,33 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
     verdict = _apart(derivation, answer, fitting(told))
     return _told(verdict, answer, decides.notes)
+
+
+def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:
+    """The verdict on the first reading of an answer that is right; None if none is, or there is no other one.
+
+    ``own`` are the lines that may decide in the likeliest. Its denominators are not read the other way where an energy
+    is right as they stand.
+    """
+    wrong, sure = set[tuple[int, str]](), False
+    for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
+        if sure and reads_flipped(reading):
+            continue
+        try:
+            other = reading()
+        except ParseError:
+            continue
+        for decides in own if other is answer else _deciding(derivation, other):
+            verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
+            needed = of_comments(wrong) if other.program else wrong
+            if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
+                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
+                    return _of_readings(derivation, computed, hint)
+                return _told(_apart(derivation, other, verdict), other, decides.notes)
+            wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
+            wrong |= wrong_together(verdict) if other is answer and decides.together else set()
+            sure = sure or (other is answer and has_right_denominators(derivation.model, answer, verdict))
+    return None
 
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
