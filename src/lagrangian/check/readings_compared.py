@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import sympy as sp
 
-from lagrangian.check.reading import Answer
+from lagrangian import bounded
+from lagrangian.check.lines import lines_of
+from lagrangian.check.reading import Answer, reads_flipped
 from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.errors import ParseError
-from lagrangian.model import Model
 from lagrangian.read.letters import key
 
 ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
 """A line that takes an entry of a state: v = y(3)."""
+LONGEST = 200
+"""The size up to which an energy is compared before the answer is judged."""
 _FRACTION = re.compile(
     r"(?<![\w.^)\]}/])\d{1,3}[ ]?/[ ]?\d{1,3}[ ]{1,3}(?:\([ ]?)?(?P<name>[^\W\d_]\w{0,24}+)"
     r"(?!['’′″\u0307\u0308\u20db\u20dc(\[])"
@@ -71,23 +77,32 @@ def wrong_together(verdict: Verdict) -> set[tuple[int, str]]:
     }
 
 
-def has_right_denominators(model: Model, answer: Answer, verdict: Verdict) -> bool:
-    """Whether an energy is right in which fractions of numbers stand in front of parameters, as in 1/2 m x'², so that
-    it would be wrong with the other denominators, 1/(2 m).
+def without_flipped(truth: Reference, answer: Answer) -> Answer:
+    """An answer without the reading in which denominators are read the other way, where an energy is right in which
+    fractions of numbers stand in front of parameters, as in 1/2 m x'²: it would be wrong with 1/(2 m).
 
     In every term of it something moves: a constant more would not make V wrong. With values that are given, the
     parameter may be 1, which makes both the same.
     """
-    if any(line.kind == "given" for line in answer.lines):
+    if not any(map(reads_flipped, answer.others)) or any(line.kind == "given" for line in answer.lines):
+        return answer
+    if truth.derivation.multipliers or not any(_has_right_fraction(truth, x) for x in lines_of(answer)):
+        return answer
+    return replace(answer, others=tuple(x for x in answer.others if not reads_flipped(x)))
+
+
+def _has_right_fraction(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line is such an energy."""
+    if line.kind not in truth.energies or line.beside or line.text.count("=") != 1 or bounded.size(line.expr) > LONGEST:
         return False
-    names = {key(p.name) for p in model.parameters if p.value is None or abs(float(p.value)) != 1}
-    moving = [c.symbol for c in model.coordinates]
-    return any(
-        f.status.right
-        and f.line.kind in ("T", "V", "L")
-        and not f.line.beside
-        and f.line.text.count("=") == 1
-        and any(key(m["name"]) in names for m in _FRACTION.finditer(f.line.text))
-        and all(term.has(*moving) for term in sp.Add.make_args(f.line.expr))
-        for f in verdict.findings
-    )
+    names = {key(p.name) for p in truth.model.parameters if p.value is None or abs(float(p.value)) != 1}
+    if not any(key(m["name"]) in names for m in _FRACTION.finditer(line.text)):
+        return False
+    moving, expr = [c.symbol for c in truth.model.coordinates], truth.expand(line.expr)
+    moves = all(term.has(*moving) for term in sp.Add.make_args(line.expr)) and bounded.letters(expr) <= truth.names
+    return moves and zero_everywhere(truth, expr - truth.energies[line.kind])
+
+
+def is_of_others(verdict: Verdict) -> bool:
+    """Whether a note of a verdict tells of coordinates in which the answer would be right."""
+    return any(str(note).startswith("It would be right with ") for note in verdict.notes)

@@ -41,14 +41,15 @@ from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.not_judged import unjudged_above, without_a_row
 from lagrangian.check.parts_above import with_parts_above
-from lagrangian.check.reading import Answer, parse_answer, reads_flipped
+from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.check.readings_compared import (
     ENTRY,
     computes_right,
-    has_right_denominators,
     is_misread,
+    is_of_others,
     of_comments,
     program_of,
+    without_flipped,
     wrong_together,
 )
 from lagrangian.check.reasons_unread import without_unread_reasons
@@ -177,12 +178,18 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
     without = None if answer.read_without is None else cache(answer.read_without)
     answer = replace(answer, others=tuple(map(cache, answer.others)), read_without=without)  # what is read is read once
-    own = _deciding(derivation, answer)
-    if (right := _right_reading(derivation, answer, own, hint)) is not None:
+    likely = without_flipped(truth_of(derivation), answer)
+    own = _deciding(derivation, likely)
+    if (right := _right_reading(derivation, likely, own, hint)) is not None:
         return right
     decides = own[-1]
     sought = hint or int(_needs_mistakes(derivation, answer, decides.lines))
     verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
+    if likely is not answer and not likely.others and len(own) == 1 and (verdict.right or is_of_others(verdict)):
+        quick = verdict if verdict.right else check.check(derivation, decides.lines, hint=hint, explain=False)
+        if quick.right:
+            return _told(_apart(derivation, answer, quick), answer, decides.notes)
+    answer = likely
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
         answer, decides = again.answer, again.decides
@@ -219,15 +226,9 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 
 
 def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:
-    """The verdict on the first reading of an answer that is right; None if none is, or there is no other one.
-
-    ``own`` are the lines that may decide in the likeliest. Its denominators are not read the other way where an energy
-    is right as they stand.
-    """
-    wrong, sure = set[tuple[int, str]](), False
+    """The verdict on the first reading that is right; None if none is, or there is no other than with ``own`` lines."""
+    wrong: set[tuple[int, str]] = set()
     for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
-        if sure and reads_flipped(reading):
-            continue
         try:
             other = reading()
         except ParseError:
@@ -241,7 +242,6 @@ def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], h
                 return _told(_apart(derivation, other, verdict), other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= wrong_together(verdict) if other is answer and decides.together else set()
-            sure = sure or (other is answer and has_right_denominators(derivation.model, answer, verdict))
     return None
 
 
