@@ -46,8 +46,10 @@ from lagrangian.check.readings_compared import (
     ENTRY,
     computes_right,
     is_misread,
+    is_of_others,
     of_comments,
     program_of,
+    without_flipped,
     wrong_together,
 )
 from lagrangian.check.reasons_unread import without_unread_reasons
@@ -176,25 +178,18 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
     without = None if answer.read_without is None else cache(answer.read_without)
     answer = replace(answer, others=tuple(map(cache, answer.others)), read_without=without)  # what is read is read once
-    own = _deciding(derivation, answer)
-    wrong: set[tuple[int, str]] = set()
-    for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
-        try:
-            other = reading()
-        except ParseError:
-            continue
-        for decides in own if other is answer else _deciding(derivation, other):
-            verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
-            needed = of_comments(wrong) if other.program else wrong
-            if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
-                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
-                    return _of_readings(derivation, computed, hint)
-                return _told(_apart(derivation, other, verdict), other, decides.notes)
-            wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
-            wrong |= wrong_together(verdict) if other is answer and decides.together else set()
+    likely = without_flipped(truth_of(derivation), answer)
+    own = _deciding(derivation, likely)
+    if (right := _right_reading(derivation, likely, own, hint)) is not None:
+        return right
     decides = own[-1]
     sought = hint or int(_needs_mistakes(derivation, answer, decides.lines))
     verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
+    if likely is not answer and not likely.others and len(own) == 1 and (verdict.right or is_of_others(verdict)):
+        quick = verdict if verdict.right else check.check(derivation, decides.lines, hint=hint, explain=False)
+        if quick.right:
+            return _told(_apart(derivation, answer, quick), answer, decides.notes)
+    answer = likely
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
         answer, decides = again.answer, again.decides
@@ -228,6 +223,26 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
     verdict = _apart(derivation, answer, fitting(told))
     return _told(verdict, answer, decides.notes)
+
+
+def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:
+    """The verdict on the first reading that is right; None if none is, or there is no other than with ``own`` lines."""
+    wrong: set[tuple[int, str]] = set()
+    for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
+        try:
+            other = reading()
+        except ParseError:
+            continue
+        for decides in own if other is answer else _deciding(derivation, other):
+            verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
+            needed = of_comments(wrong) if other.program else wrong
+            if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
+                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
+                    return _of_readings(derivation, computed, hint)
+                return _told(_apart(derivation, other, verdict), other, decides.notes)
+            wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
+            wrong |= wrong_together(verdict) if other is answer and decides.together else set()
+    return None
 
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:

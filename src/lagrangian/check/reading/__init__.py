@@ -1,6 +1,7 @@
 """Reads answers in plain text or LaTeX: equations, energies, generalized forces, whole derivations by hand."""
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
+from lagrangian.check.reading.choices import reads_flipped
 from lagrangian.check.reading.file_text import decode_answer, read_text
 from lagrangian.check.reading.limits import MAX_ANSWER
 from lagrangian.check.reading.own_slopes import OwnCoordinates, named, replaced_by
@@ -23,5 +24,6 @@ __all__ = [
     "of_coordinate",
     "parse_answer",
     "read_text",
+    "reads_flipped",
     "replaced_by",
 ]

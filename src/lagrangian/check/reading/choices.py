@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 from lagrangian.check.reading.answer import MarkedRow
 from lagrangian.check.reading.marked_names import MarkedNames
@@ -128,3 +129,9 @@ def marked_readings(rows: Sequence[MarkedRow], failed: Sequence[ParseError]) -> 
     unread = [row for row in rows if row.line in lines]
     for k in range(min(MOST_AGAIN, max((row.count for row in unread), default=0))):
         yield Choices(marks=tuple((row.start, min(k, row.count - 1)) for row in unread))
+
+
+def reads_flipped(reading: Callable[[], object]) -> bool:
+    """Whether one of the other readings of an answer, which may be kept, is that of denominators the other way."""
+    read = getattr(reading, "__wrapped__", reading)
+    return isinstance(read, partial) and Choices(flipped=True) in [x for x in read.args if isinstance(x, Choices)]

@@ -88,10 +88,8 @@ def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
 
     ``named``: the answer gives forces the ends of coordinates' names, so that Q_1 beside Q_m is that of phi_1.
     """
-    if find(name, model.symbols):
-        return None
     match = _FORCE.match(spelled(name))
-    if match is None:
+    if match is None or find(name, model.symbols):
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
         return None  # it means a torque

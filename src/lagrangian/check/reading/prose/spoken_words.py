@@ -36,7 +36,10 @@ _SUM_OF = re.compile(
 """What words add up, even behind an equals sign, and what a letter is: dD/dt = sum of moments; mo = mass of one oar."""
 _SHORT = 3
 """The letters of a word that is no noun if it stands in mathematics anywhere."""
-_FUNCTION = r"(?:sin|cos|tan|sqrt|exp)"
+_SIGNS = "-+−*/^·×⋅="
+_LETTER = re.compile(r"\w")
+_FACTOR_BEHIND = re.compile(r"[ \t]?(?:[-+−*/^·×⋅²³][ \t]*[\w(]|\(|(?:sin|cos|tan|sqrt|exp))")
+"""What stands behind a factor: a sign of mathematics, a bracket or a function."""
 _VOWEL = re.compile(r"[aeiouyäöü]", re.IGNORECASE)
 _SPELLED_OUT = re.compile(r"[ \t]{0,9}[^\W\d_](?:[ \t]?[·*×⋅][ \t]?[^\W\d_]){1,7}(?![ \t]?[\w·*×⋅/^+(-])")
 _DOUBLED = re.compile(
@@ -81,11 +84,19 @@ def _compounds(text: str, words: Words) -> Iterator[str]:
 
 def _is_factor(word: str, text: str) -> bool:
     """Whether a word stands beside a sign of mathematics, a number or a function: + mga sin θ."""
-    if len(word) > LONGEST:
-        return False
-    signs = r"[-+−*/^·×⋅=]"
-    beside = rf"(?:{signs}[ \t]*|\d[ \t]?){word}(?!\w)|(?<!\w){word}[ \t]?(?:[-+−*/^·×⋅²³][ \t]*[\w(]|\(|{_FUNCTION})"
-    return re.search(beside, text) is not None
+    at = text.find(word) if len(word) <= LONGEST else -1
+    while at >= 0:
+        end, before = at + len(word), at
+        while text[before - 1 : before] in (" ", "\t"):
+            before -= 1
+        sign = text[before - 1 : before]
+        behind = sign in _SIGNS or (at - before < 2 and sign.isdecimal())
+        if sign and behind and _LETTER.match(text, end) is None:
+            return True
+        if (at == 0 or _LETTER.match(text, at - 1) is None) and _FACTOR_BEHIND.match(text, end) is not None:
+            return True
+        at = text.find(word, at + 1)
+    return False
 
 
 def doubled_letters(text: str) -> dict[str, None]:
