@@ -18,13 +18,13 @@ from functools import partial
 from itertools import accumulate, islice
 
 from lagrangian.check.reading.prose.blocks import closed, end_below, is_open
-from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES
+from lagrangian.check.reading.prose.remark_words import BESIDE_FREQUENCIES, CASES, CHECKS, FREQUENCIES, REST
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
-from lagrangian.check.reading.words_beside import REST, words_beside
+from lagrangian.check.reading.words_beside import words_beside
 from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
 from lagrangian.read.scope import rate_stems

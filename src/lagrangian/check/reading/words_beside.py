@@ -5,17 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, SPECIAL
+from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, REST, SPECIAL
 from lagrangian.check.reading.prose.remarks import accelerates_in
 
-REST = re.compile(
-    r"\b(?:at rest|(?:stand|stay|remain)s? still|steht still|rates (?:are )?zero|hover|"
-    r"equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
-    r"|(?<!the )rest\b(?=[^\w\n]{0,3}(?:with|where|when|if|for|position|requires|needs|means|:)))"
-    r"|gleichgewicht",
-    re.IGNORECASE,
-)
-"""Words of positions at rest."""
 _BRACKETED = re.compile(r"\((?P<inside>[^()=\n]{1,80}=[^()=\n]{1,60})\)[.,;]?[ \t]*$")
 """A relation in brackets at the end of a sentence."""
 _SENTENCE = 200

@@ -36,3 +36,11 @@ SPECIAL = re.compile(
     re.IGNORECASE,
 )
 """Words of special motions."""
+REST = re.compile(
+    r"\b(?:at rest|(?:stand|stay|remain)s? still|steht still|rates (?:are )?zero|hover|"
+    r"equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
+    r"|(?<!the )rest\b(?=[^\w\n]{0,3}(?:with|where|when|if|for|position|requires|needs|means|:)))"
+    r"|gleichgewicht",
+    re.IGNORECASE,
+)
+"""Words of positions at rest."""

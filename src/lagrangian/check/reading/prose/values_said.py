@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from lagrangian.check.reading.name_patterns import INNER, LETTER
 from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.prose.remark_words import REST
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
-from lagrangian.check.reading.words_beside import REST
 from lagrangian.read.letters import undotted
 
 MOST = 2_000
