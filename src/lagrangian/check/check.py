@@ -119,15 +119,10 @@ def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explai
 
 def _with_values_meant(truth: Reference, said: Declared, verdict: Verdict, hint: int, explain: bool) -> Verdict | None:
     """The verdict on a wrong answer with the values that it has in place of letters; None if it has none."""
-    if verdict.status is not Status.WRONG:
-        return None
     valued = truth.with_values(said.values) if said.values else truth
-    lines = _filled(valued, said.lines)
-    values = {} if in_numbers(valued, lines) else values_meant(valued, lines)
-    if not values:
-        return None
-    judged = _assuming(truth, replace(said, values=said.values | values), hint, explain)
-    return replace(judged, notes=(substituted(values), *judged.notes))
+    values = values_meant(valued, _filled(valued, said.lines)) if verdict.status is Status.WRONG else {}
+    judged = _assuming(truth, replace(said, values=said.values | values), hint, explain) if values else None
+    return judged and replace(judged, notes=(substituted(values), *judged.notes))
 
 
 def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Verdict:
@@ -270,11 +265,10 @@ def _putting(
     hint: int,
     explain: bool,
 ) -> Verdict:
-    values = dict(put)
-    valued = truth.with_values(values)
+    valued = truth.with_values(dict(put))
     lines, told = with_prescribed_unrounded(valued, lines)
     read = spelled(valued, _filled(valued, lines), numbers=False)
-    return _read(valued, replace(read, notes=(*read.notes, substituted(values), *told)), hint, explain=explain)
+    return _read(valued, replace(read, notes=(*read.notes, substituted(dict(put)), *told)), hint, explain=explain)
 
 
 _kept_putting = lru_cache(maxsize=MOST_PUT)(_putting)

@@ -200,7 +200,7 @@ def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
 
 def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
     """The values that a wrong answer has in place of letters, some of which it may keep, as k in 3 x″ + k x = F; none
-    unless most of what it says fits with them, and less without.
+    unless most of what it says fits with them, and less without, or if it is `in_numbers` anyway.
 
     A letter whose value is 1 is among them only if it can not just have been forgotten: the answer then names none of
     its dimension, and has values of others in numbers, beside those of g and of angles.
@@ -210,7 +210,7 @@ def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Sym
     every = values_of(truth, judged)
     ones = {p: v for p, v in every.items() if v == 1}
     values = {p: v for p, v in every.items() if v != 1}
-    if not values or numbers <= COMMON.difference(values.values()):
+    if not values or numbers <= COMMON.difference(values.values()) or in_numbers(truth, lines):
         return {}
     before = fit(truth, judged)[0]
     named = _dimensions(truth, _constants(judged))
