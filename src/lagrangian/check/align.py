@@ -134,6 +134,26 @@ def slopes_of(truth: Reference) -> Array:
     return slopes_of_equations(truth, truth.rows)
 
 
+def fit(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[float, int]:
+    """In how many slopes by what moves the lines of an answer agree with the right ones that they resemble most, and
+    how many slopes they have."""
+    c, u = truth.model.coordinates, truth.model.inputs
+    by = [*(x for q in c for x in (q.symbol, q.rate, q.acceleration)), *(x.symbol for x in u)]
+    rights = {"T": [truth.T], "V": [truth.V], "L": [truth.L], "Xi": list(truth.Xi), "equation": list(truth.rows)}
+    found, count = 0.0, 0
+    for kind, exprs in rights.items():
+        own = [line.expr for line in lines if line.kind == kind]
+        if own:
+            right, mine = (_slopes(truth, x, by) for x in (exprs, own))
+            found += sum(max(agreeing(m, r)[0] for r in right) for m in mine)
+            count += sum(int((np.abs(m).max(axis=1) > 0).sum()) for m in mine)
+    return found, count
+
+
+def _slopes(truth: Reference, exprs: Sequence[sp.Expr], by: Sequence[sp.Expr]) -> Array:
+    return CompiledExpressions(exprs).slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
+
+
 def slopes_of_equations(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
     """The slopes of every equation by accelerations, inputs, rates and parameters, and its value at rest, (k, m, S)."""
     model, size = truth.model, truth.states.size
@@ -143,9 +163,8 @@ def slopes_of_equations(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
         *(c.rate for c in model.coordinates),
     ]
     by = [*moving, *(p.symbol for p in model.parameters if p.symbol not in truth.values)]
-    compiled = CompiledExpressions(exprs)
-    values = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), size)
-    rest = compiled.at(truth.states, dict.fromkeys(moving, np.zeros(size)))
+    values = _slopes(truth, exprs, by)
+    rest = CompiledExpressions(exprs).at(truth.states, dict.fromkeys(moving, np.zeros(size)))
     return np.concatenate([values, rest[:, None]], axis=1)
 
 

@@ -56,7 +56,15 @@ from lagrangian.check.momenta_said import with_rates_of_momenta
 from lagrangian.check.names.amounts_said import judged_with_amounts
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
-from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
+from lagrangian.check.names.spelling import (
+    Spelling,
+    in_numbers,
+    names_values,
+    spelled,
+    substituted,
+    values_meant,
+    values_of,
+)
 from lagrangian.check.names.values_at_rest import without_balanced_weights
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.own_coordinates import off_constraints, right_in_own_coordinates
@@ -101,11 +109,20 @@ def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explai
     """The verdict on the lines of an answer with what it says about names."""
     said = declared(truth, lines)
     exact = said.unrounded(truth)
-    if exact is said:
-        return _assuming(truth, said, hint, explain)
-    found = (_assuming(truth, x, hint, False) for x in (exact, said))
-    right = next((verdict for verdict in found if verdict.right), None)
-    return right or _assuming(truth, exact, hint, explain)
+    if exact is not said:
+        found = (_assuming(truth, x, hint, False) for x in (exact, said))
+        if (right := next((verdict for verdict in found if verdict.right), None)) is not None:
+            return right
+    verdict = _assuming(truth, exact, hint, explain)
+    return _with_values_meant(truth, exact, verdict, hint, explain) or verdict
+
+
+def _with_values_meant(truth: Reference, said: Declared, verdict: Verdict, hint: int, explain: bool) -> Verdict | None:
+    """The verdict on a wrong answer with the values that it has in place of letters; None if it has none."""
+    valued = truth.with_values(said.values) if said.values else truth
+    values = values_meant(valued, _filled(valued, said.lines)) if verdict.status is Status.WRONG else {}
+    judged = _assuming(truth, replace(said, values=said.values | values), hint, explain) if values else None
+    return judged and replace(judged, notes=(substituted(values), *judged.notes))
 
 
 def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Verdict:
@@ -248,10 +265,10 @@ def _putting(
     hint: int,
     explain: bool,
 ) -> Verdict:
-    valued, values = truth.with_values(dict(put)), dict(put)
+    valued = truth.with_values(dict(put))
     lines, told = with_prescribed_unrounded(valued, lines)
-    read = _with_values(values, spelled(valued, _filled(valued, lines), numbers=False))
-    return _read(valued, replace(read, notes=(*read.notes, *told)), hint, explain=explain)
+    read = spelled(valued, _filled(valued, lines), numbers=False)
+    return _read(valued, replace(read, notes=(*read.notes, substituted(dict(put)), *told)), hint, explain=explain)
 
 
 _kept_putting = lru_cache(maxsize=MOST_PUT)(_putting)
@@ -342,12 +359,6 @@ def _tells(lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer contains enough to distinguish a relative coordinate from a wrong absolute one."""
     kinds = {line.kind for line in lines}
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
-
-
-def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
-    """The verdict on an answer with numbers: the values of the parameters are substituted."""
-    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
-    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are substituted.")))
 
 
 def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:

@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.names.spelling import in_numbers, values_of
+from lagrangian.check.names.spelling import in_numbers, names_of, substituted, values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
@@ -35,7 +35,7 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     accelerations = [c.acceleration for c in truth.model.coordinates]
     said = [line.kind in _JUDGED or (line.kind == "equation" and line.expr.has(*accelerations)) for line in lines]
     numeric = [k for k, line in enumerate(lines) if said[k] and in_numbers(truth, [line])]
-    known = {p.symbol for p in truth.model.parameters} - truth.prescribed
+    known = names_of(truth)
     if sum(lines[k].kind == "equation" for k in numeric) >= truth.n:  # V = 3/2 s² beside equations in numbers
         judged = [k for k in range(len(lines)) if said[k]]
         numeric = numeric if any(lines[k].expr.free_symbols & known for k in judged) else judged
@@ -50,7 +50,7 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         or not (lettered or valued)
         or not (whole or moved)
         or not values
-        or any(bounded.symbols(x.expr) - {time} - truth.prescribed for x in numbers)
+        or any(bounded.symbols(x.expr) - {time} - truth.prescribed - truth.angles for x in numbers)
     ):
         return None
     if not lettered:
@@ -142,9 +142,7 @@ def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlo
     lettered = [x for x in kept if not _is_constant(x, values)]
     if not lettered or not in_numbers(truth, lettered):
         return None
-    put = tuple(values)
-    named = [x for p in sorted(put, key=str) for x in (p, ", ")][:-1]
-    return NumbersAlone(tuple(kept), values, (text("The values of ", *named, " are substituted."),))
+    return NumbersAlone(tuple(kept), values, (substituted(values),))
 
 
 def _relates(truth: Reference, line: AnsweredLine) -> bool:

@@ -84,6 +84,15 @@ class Reference:
         moving = [d.expression for d in self.model.definitions if d.moving and not d.expression.has(*moves)]
         return frozenset[sp.Basic]().union(*(x.free_symbols for x in moving)) - {time}
 
+    @cached_property
+    def angles(self) -> frozenset[sp.Basic]:
+        """The parameters that stand in sines and cosines alone, as α in m g sin α."""
+        exprs = [self.T, self.V, *self.Xi, *self.rows]
+        turned = {f for x in exprs for f in bounded.atoms(x, sp.sin, sp.cos, sp.tan)}
+        inside = frozenset[sp.Basic]().union(*(f.free_symbols for f in turned))
+        straight = (x.xreplace(dict.fromkeys(turned, sp.S.One)).free_symbols for x in exprs)
+        return inside.difference(*straight) & {p.symbol for p in self.model.parameters}
+
     def _differences(self) -> list[sp.Expr]:
         return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]
 

@@ -346,7 +346,24 @@ def _terms(verdict: Verdict, model: Model) -> Iterator[Item]:
         of = _of(f, model) if often[f.line.title] > 1 else ()
         for d in f.differences if not f.follows else ():
             side, said = on_side(f.line, d)
-            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said, verdict))
+            yield text(
+                f.line.title,
+                *of,
+                f"{f', {side}' if side else ''}: ",
+                *differs(said),
+                *_source(said, verdict),
+                *_above(f, d, verdict),
+            )
+
+
+def _above(finding: Finding, d: TermDifference, verdict: Verdict) -> tuple[str, ...]:
+    """Where the wrong Ξ of an equation stands above it, in which the same term differs."""
+    alike = {(d.term, d.written), (-d.term, -d.written)}
+    for f in verdict.open_findings if finding.line.kind == "equation" else ():
+        own = f.line.kind == "Xi" and f.line.name == finding.coordinate and f.line.number < finding.line.number
+        if own and not alike.isdisjoint((x.term, x.written) for x in f.differences):
+            return (f" It follows from {f.line.title}.",)
+    return ()
 
 
 def _source(d: TermDifference, verdict: Verdict) -> tuple[str | Left, ...]:

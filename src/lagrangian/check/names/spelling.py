@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice, permutations
 from math import isclose, pi
@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.align import agreement
+from lagrangian.check.align import agreement, fit
 from lagrangian.check.names.values_at_rest import values_at_rest
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
@@ -22,12 +22,16 @@ from lagrangian.errors import did_you_mean
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.quantities.quantity import unit_dimension
 from lagrangian.records import dataclass
 
 MAX_READINGS = 120
 """The largest number of interpretations of unknown names that are tried."""
 MAX_WRONG_READINGS = 24
 """The same for an answer that is wrong with all of them."""
+COMMON = frozenset([sp.S.Zero, sp.S.Half, sp.S.One])
+"""Numbers that stand in almost every equation in letters."""
+_ACCELERATION = unit_dimension("m/s^2")
 PLAIN = frozenset(sp.Rational(a, b) for a in range(5) for b in range(1, 5))
 """Numbers that stand in many equations without being the value of a parameter."""
 
@@ -77,11 +81,17 @@ def not_there(model: Model, symbol: sp.Basic) -> Text:
 def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer names no parameter but contains numbers that can only be values of parameters.
 
-    It may name those of prescribed motions, as 454.43 φ̈ does when φ = A sin Ωt is written out.
+    It may name angles, as 39.24 sin α does, and those of prescribed motions, as 454.43 φ̈ does when φ = A sin Ωt is
+    written out.
     """
-    known = {p.symbol for p in truth.model.parameters} - truth.prescribed
+    known = names_of(truth)
     numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational, sp.Float)}
     return not any(bounded.symbols(line.expr) & known for line in lines) and bool(numbers - PLAIN)
+
+
+def names_of(truth: Reference) -> set[sp.Basic]:
+    """The parameters that an answer in numbers does not name: all but angles and those of prescribed motions."""
+    return {p.symbol for p in truth.model.parameters if p.symbol not in truth.prescribed | truth.angles}
 
 
 def _read(written: sp.Basic, meant: sp.Basic) -> Text:
@@ -189,6 +199,46 @@ def _part_of_pi(value: float) -> sp.Expr | None:
 def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer names a parameter that has a value: one whose value is 1 may then just have been forgotten."""
     return not _constants(lines).isdisjoint(truth.model.values)
+
+
+def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
+    """The values that a wrong answer has in place of letters, some of which it may keep, as k in 3 x″ + k x = F; none
+    unless most of what it says fits with them, and less without, or if it is `in_numbers` anyway.
+
+    A letter whose value is 1 is among them only if it can not just have been forgotten: the answer then names none of
+    its dimension, and has values of others in numbers, beside those of g and of angles.
+    """
+    judged = [x for x in lines if x.kind in ("T", "V", "L", "Xi", "equation")]
+    numbers = {abs(x) for line in judged for x in bounded.atoms(line.expr, sp.Rational)}
+    every = values_of(truth, judged)
+    ones = {p: v for p, v in every.items() if v == 1}
+    values = {p: v for p, v in every.items() if v != 1}
+    if not values or numbers <= COMMON.difference(values.values()) or in_numbers(truth, lines):
+        return {}
+    before = fit(truth, judged)[0]
+    named = _dimensions(truth, _constants(judged))
+    if ones and (not named or (None not in named and named.isdisjoint(_dimensions(truth, ones) | {None}))):
+        apart = {p: v for p, v in every.items() if v == 1 or _dimensions(truth, [p]) <= {_ACCELERATION}}
+        values = every if _fit(truth, judged, every) > _fit(truth, judged, apart) else values
+    found, count = fit(truth.with_values(values), judged)
+    return values if found > before and 2 * found > count else {}
+
+
+def substituted(values: Iterable[sp.Symbol]) -> Text:
+    """Say of which parameters the values are put in."""
+    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
+    return text("The values of ", *named, " are substituted.")
+
+
+def _fit(truth: Reference, lines: Sequence[AnsweredLine], values: Mapping[sp.Symbol, sp.Expr]) -> float:
+    return fit(truth.with_values(values), lines)[0]
+
+
+def _dimensions(truth: Reference, named: Collection[sp.Basic]) -> set[object]:
+    """The dimensions of parameters that are no angles; None, if one has no unit."""
+    own = {p.symbol: p.unit for p in truth.model.parameters if p.symbol not in truth.angles}
+    units = [unit for p, unit in own.items() if p in named]
+    return {None if unit is None else unit_dimension(unit) for unit in units}
 
 
 def _constants(lines: Sequence[AnsweredLine]) -> set[sp.Basic]:

@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.terms.pieces import Summand, motion, rates
 from lagrangian.derive.algebra import Form
@@ -130,14 +131,14 @@ def matched(wrong: Sequence[TermItem]) -> list[PieceMatch]:
     ways: tuple[tuple[Callable[[TermItem], Any], bool], ...] = (
         (_moving, False),
         (lambda x: _without_functions(motion(x.piece.expr)), True),
-        (lambda x: rates(x.piece.expr), True),
-        (lambda x: _letters(x.piece.expr), True),
-        (lambda x: None, True),
+        (lambda x: (_acts(x), rates(x.piece.expr)), True),
+        (lambda x: (_acts(x), _letters(x.piece.expr)), True),
+        (lambda x: (_acts(x), None), True),
     )
     for key, alone in ways:
         for k in dict.fromkeys(key(x) for x in own):
             s, r = [x for x in own if key(x) == k], [x for x in right if key(x) == k]
-            if not r or (k is None and not _alike(s[0], r[0])):
+            if not r or (key is ways[-1][0] and not _alike(s[0], r[0])):
                 continue
             if len(s) + len(r) > 2 and (each := _one_by_one(s, r)) is not None:
                 found += each
@@ -199,6 +200,13 @@ def _without_functions(expr: sp.Expr) -> sp.Expr:
 def _letters(expr: sp.Expr) -> sp.Expr:
     """The letters of a piece, without numbers and without what moves."""
     return cast("sp.Expr", (expr / motion(expr)).as_coeff_Mul()[1])
+
+
+def _acts(item: TermItem) -> bool:
+    """Whether an input, τ of τ/l, is a factor of a piece: no term of the motion belongs in its place."""
+    known = item.form.algebra.generators
+    functions = [f for f in sp.Mul.make_args(item.piece.expr) if isinstance(f, AppliedUndef)]
+    return any(getattr(known.table[known.index(f)], "role", None) == "input" for f in functions)
 
 
 def _alike(one: TermItem, other: TermItem) -> bool:

@@ -80,8 +80,11 @@ def differs(d: TermDifference) -> tuple[str | Left, ...]:
 
 @lru_cache(maxsize=500)
 def _terms(side: sp.Expr) -> frozenset[sp.Expr]:
-    """The terms of one side, multiplied out."""
-    return frozenset(cast("tuple[sp.Expr, ...]", sp.Add.make_args(bounded.expand(side))))
+    """The terms of one side, multiplied out, with fractions for decimals."""
+    exact = cast(
+        "sp.Expr", bounded.expand(side).xreplace({x: sp.Rational(str(x)) for x in bounded.atoms(side, sp.Float)})
+    )
+    return frozenset(cast("tuple[sp.Expr, ...]", sp.Add.make_args(exact)))
 
 
 def _names(term: sp.Expr) -> frozenset[str]:

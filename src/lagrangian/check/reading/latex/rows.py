@@ -332,7 +332,11 @@ def _content(piece: str) -> bool:
 
 def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
     """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
-    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
+    if (
+        _STARTS.match(piece)
+        or (hard and _INDENTED.match(piece))
+        or incomplete(before.replace("&", " ").rstrip("\\ ,"), piece)
+    ):
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False

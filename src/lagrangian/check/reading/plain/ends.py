@@ -9,6 +9,14 @@ from itertools import islice
 OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 """The end of a line that must go on."""
 
+EMPTY_SIDE = re.compile(r"[\s&]*+(\\?[^\W\d][\w{}*^]{0,16}+)[\s&]*+=[\s&\\]*+(?:\?{1,3}|…|\.{2,4}|_{2,9})?+\s*+")
+"""A name with nothing behind its equals sign, or with dots or a question mark."""
+_STATED = re.compile(
+    r"[\s&]*+(?:(?P<T>T(?:\^?\*)?|E_?\{?kin\}?)|(?P<V>V|U|E_?\{?pot\}?)|(?P<L>L|ℒ|\\mathcal\{L\})|(?P<D>D)"
+    r"|(?:\\?Xi|Ξ|Q)(?P<force>_?\w{1,12}|_\{\w{1,12}\}))[\s&]*+=(?![=>])"
+)
+"""What begins with an energy, or a generalized force."""
+
 MAX_LIST = 60
 """The most lines of a list of equations in brackets."""
 
@@ -47,8 +55,13 @@ def missing_brackets(text: str) -> str:
     return "".join(reversed(stack))
 
 
-def incomplete(text: str) -> bool:
-    """Whether the statement must continue: it ends with an operator, or a bracket is open."""
+def incomplete(text: str, below: str = "") -> bool:
+    """Whether the statement must continue: it ends with an operator, or a bracket is open; not where nothing stands
+    behind T = and the line ``below`` states something else, V = …"""
+    empty, stated = EMPTY_SIDE.fullmatch(text), _STATED.match(below)
+    label = _STATED.match(text) if empty is not None and stated is not None else None
+    if label is not None and stated is not None and label.groups() != stated.groups():
+        return False
     return bool(OPEN_END.search(text) and not _STAR_END.search(text)) or open_brackets(text) > 0
 
 

@@ -21,6 +21,7 @@ from lagrangian.check.reading.labels import (
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.plain.ends import (
+    EMPTY_SIDE,
     NAME_NEXT,
     OPEN_END,
     defines_behind,
@@ -169,7 +170,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     ]
     begin = {row.start for row in rows}  # labels behind commas: of A: x' = a, of B: y' = b
     split = [x if x.start in begin else replace(x, text=before(x.text, words, numbers)) for x in split]
-    split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
+    split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()] or split[:1]
     found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
     if len(found) > 1:
         told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words)]
@@ -294,7 +295,7 @@ def _continues(above: str, line: str, within: bool) -> bool:
         return False
     if (
         (within and "=" not in above)
-        or incomplete(above)
+        or incomplete(above, line)
         or _goes_on(above, line)
         or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line))
     ):
@@ -339,8 +340,12 @@ def _ends_open(above: str, line: str) -> bool:
 
 def without_sums(row: AnswerRow, names: Names) -> AnswerRow:
     """A row without the side that only says what is added up, ∑M = J φ'' = …; empty, which a note tells, if there is no
-    other equation. A capital sigma before a name is this sign, too, unless the system has one."""
+    other equation. A capital sigma before a name is this sign, too, unless the system has one. The same for T = with
+    nothing behind it."""
     form = _SUM
+    if (empty := EMPTY_SIDE.fullmatch(row.text)) is not None:
+        names.notes.setdefault(f"'{empty[1]} =' was not judged: it has no right-hand side.")
+        return replace(row, text="")
     if "Σ" in row.text and not names.scope.meanings("Σ")[0]:
         form = re.compile(rf"{_SUM.pattern}|{_SIGMA.pattern}")
     if not form.search(row.text):
