@@ -21,7 +21,7 @@ from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
-from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.entries import entered_matrices, solved_matrices, with_symmetric_entries
 from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
@@ -69,7 +69,7 @@ from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.elements_behind import without_elements_behind
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
-from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
+from lagrangian.check.reading.said.glossed_names import with_words_below, without_glosses_of_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.rates_of_bodies import with_rates_of_bodies
@@ -84,7 +84,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_stated_values,
     with_variations,
 )
-from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.subscripts import with_energies_below, with_index_of_time
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.said.turned_by import with_turned_bodies
@@ -185,8 +185,12 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
         return text
     moving = {key(c.name) for c in lines.model.coordinates}
     spelled = lines.model.symbols.__contains__
-    text = without_glosses_of_names(text, lines.model, taken)
-    return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
+
+    def moves(name: str) -> bool:
+        return key(name) in moving
+
+    text = with_words_below(without_glosses_of_names(text, lines.model, taken), moves, taken, exact=spelled)
+    return with_letters_apart(text, moves, spelled, taken, lines.names.notes)
 
 
 def _with_said_letters(
@@ -209,7 +213,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
+    copied = with_symmetric_entries(_copied(text), names.notes)
     if not LATEX.search(text):
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
@@ -229,6 +233,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
+    session = with_energies_below(session, lambda name: key(name) in moving, taken)
     relaxed = without_legend(without_references(with_index_of_time(session, lambda name: key(name) in moving, taken)))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
