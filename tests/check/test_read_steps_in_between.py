@@ -174,3 +174,71 @@ def test_amounts_in_front_of_equations_in_numbers(list_of: str) -> None:
     assert not rack().check(f"{list_of}\n{row.replace('13.2', '12.2')}").right
     for number in ("= 0.3/0.25", "= 1.2", "= 60", "= 125"):
         assert number not in list_of or not rack().check(f"{list_of.replace(number, '= 3.4')}\n{row}").right
+
+
+CART = """M = [ m   0 ]
+    [ 0   J + m r² ]
+det M = m (J + m r²)
+M⁻¹ = 1/(m (J + m r²)) · [ J + m r²   0 ]
+                         [ 0          m ]
+h = [ m r φ'² - k (r - a) ; M_0 - 2 m r r' φ' ] =: [ h1 ; h2 ]
+"""
+
+
+@pytest.mark.parametrize(
+    "rows", ["[ r'' ; φ'' ] = M⁻¹ h", "[ r'' ; φ'' ] = M⁻¹ [ h1 ; h2 ]", "r'' = h1/m\nφ'' = h2/(J + m r²)"]
+)
+def test_determinants_and_inverses_of_matrices(rows: str) -> None:
+    text = f"{CART}{rows}".replace("M_0", "M").replace("M =", "A =").replace("det M", "det A").replace("M⁻¹", "A⁻¹")
+    text = text.replace("    [ 0   J", "    [ 0   J")
+    assert accepted(text)
+    assert not accepted(text.replace("det A = m (J +", "det A = m (J -"))
+    assert not accepted(text.replace("[ 0          m ]", "[ 0        2 m ]"))
+    assert not accepted(text.replace("- 2 m r r'", "+ 2 m r r'"))
+    assert accepted(text.replace("det A", "|A|"))
+
+
+def test_the_inverse_of_a_matrix_in_latex() -> None:
+    text = r"""$$A = \begin{pmatrix} m & 0 \\ 0 & J + m r^2 \end{pmatrix}, \quad \det A = m (J + m r^2)$$
+
+$$\begin{pmatrix} \ddot r \\ \ddot\varphi \end{pmatrix}
+= A^{-1} \begin{pmatrix} m r \dot\varphi^2 - k (r - a) \\ M - 2 m r \dot r \dot\varphi \end{pmatrix}$$"""
+    assert accepted(text)
+    assert not accepted(text.replace("= m (J", "= m (2 J"))
+    assert not accepted(text.replace("M - 2 m", "M + 2 m"))
+
+
+ROUTH = """φ is cyclic, I use Routh.
+p = (J + m r²) φ'
+R = 1/2 m r'² - 1/2 k (r - a)² - p²/(2 (J + m r²))
+∂R/∂r' = m r'
+∂R/∂r = m r φ'² - k (r - a)
+d/dt(∂R/∂r') - ∂R/∂r = 0
+p' = M
+"""
+
+
+@pytest.mark.parametrize("form", ["{}", "{}\nm r'' - m r φ'² + k (r - a) = 0\n(J + m r²) φ'' + 2 m r r' φ' = M"])
+def test_a_routhian_holds_the_momentum(form: str) -> None:
+    text = form.format(ROUTH)
+    assert accepted(text)
+    assert accepted(text.replace("p", "p_φ").replace("R =", "R(r, r', p_φ) ="))
+    assert accepted(text.replace("R = 1/2 m r'²", "R = L - p φ' = 1/2 m r'²").replace("I use Routh", "so"))
+    assert not accepted(text.replace("∂R/∂r = m r φ'² -", "∂R/∂r = -m r φ'² -"))
+    assert not accepted(text.replace("- p²/(2", "+ p²/(2"))
+
+
+def test_a_routhian_without_a_momentum_is_not_judged() -> None:
+    text = "I use Routh's function R = 1/2 m r'² - 1/2 k (r - a)² - 1/2 (J + m r²) φ'²\n∂R/∂r = m r φ'² - k (r - a)\n"
+    verdict = rod().check(f"{text}{ROWS}")
+    assert verdict.right, verdict.to_text()
+    assert not any(f.line.number == 2 for f in verdict.findings)
+
+
+def test_letters_of_bodies_below_their_headings() -> None:
+    text = f"Rod\n  w = phi', v = 0\nPuck\n  w = 0, v² = r'² + r² phi'²\nEquations\n{ROWS}"
+    assert accepted(text)
+    assert not accepted(text.replace("v² = r'²", "v² = 2 r'²").replace("Equations", "Equations with T = 1/2 m v²"))
+    place = f"Rod:\ny = 0\nPuck:\ny = r sin phi, y' = r' sin phi + r phi' cos phi\nSum:\n{ROWS}"
+    assert accepted(place)
+    assert not accepted(place.replace("+ r phi' cos", "- r phi' cos"))

@@ -3,6 +3,7 @@
 M11 = a, M12 = M21 = b, M22 = c, and M*q'' + h = f          M = [M11, M12; M21, M22] is added
 q'' = M \\ f,  q'' = inv(M)*f,  q'' = M^-1 f                 M*(q'') = f
 [a, b; *, c],  [a, b; sym., c]                              [a, b; b, c]
+det M = a c - b^2                                           |M| = a c - b^2
 """
 
 from __future__ import annotations
@@ -16,6 +17,13 @@ from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
 _MATRIX = re.compile(r"(?<![\w\\.])([A-Za-z]\w{0,9})\s*=\s*\[")
+_MATRIX_IN_LATEX = re.compile(r"(?<![\w\\.])([A-Za-z])\s*&?=\s*(?:\\left\s*[\[(]\s*)?\\begin\{[bp]?(?:matrix|array)\}")
+_DETERMINANT = re.compile(
+    r"(?P<called>(?<![\w\\|])\\?[A-Za-z]\w{0,9}[ ]?=[ ]?)?(?P<of>(?<!\w)(?:\\?det|Det)"
+    r"(?:[ ]?\([ ]?(?P<round>[A-Za-z]\w{0,9})[ ]?\)|[ ]?(?<![a-z](?=[A-Za-z]))(?P<bare>[A-Za-z]\w{0,9}))(?!\w))"
+)
+_CHAINED = re.compile(r"[ ]?=(?!=)[^=;,\n$\\]{1,300}(?=[ \t]*$)", re.MULTILINE)
+"""What else a determinant with a name equals: D = det M = a c - b^2."""
 _SOLVED = re.compile(
     r"^(?P<left>[^=\n]{1,200})=[ \t]*(?:inv\([ \t]*(?P<inv>[A-Za-z]\w{0,9})[ \t]*\)[ \t]*[*·]?"
     r"|(?P<raised>[A-Za-z]\w{0,9})[ \t]*\^[ \t]*[({]?-1[)}]?[ \t]*[*·]?|(?P<under>[A-Za-z]\w{0,9})[ \t]*\\)"
@@ -113,6 +121,25 @@ def _with_first_entries(rows: list[list[_Cell]], given: list[list[_Cell]]) -> It
         yield from ((*x[:2], "") for x in row if x not in given[i])
         at = given[i][0][0]
         yield at, at, "".join(f"{given[j][i - j][2]}   " for j in range(i))
+
+
+def with_determinants(written: TracedText) -> TracedText:
+    """Return an answer in which the determinant of a matrix that it gives is written with bars, det M as |M|.
+
+    Of D = det M = a c - b^2 the second part is stated by itself.
+    """
+    text = written.text
+    given = set(_MATRIX.findall(text)) | set(_MATRIX_IN_LATEX.findall(text))
+    edits: list[Edit] = []
+    for match in islice(_DETERMINANT.finditer(text), MOST_MATRICES) if given else ():
+        name = match["round"] or match["bare"]
+        if name not in given:
+            continue
+        edits.append((*match.span("of"), f"|{name}|"))
+        if match["called"] and (chain := _CHAINED.match(text, match.end())) is not None:
+            edits.append((*match.span("called"), ""))
+            edits.append((chain.end(), chain.end(), f"; {match['called'].strip()} |{name}|"))
+    return written.edited(edits)
 
 
 def solved_matrices(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection
 from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
+from lagrangian.check.reading.canonical import with_routhian
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
@@ -21,7 +22,12 @@ from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
-from lagrangian.check.reading.entries import entered_matrices, solved_matrices, with_symmetric_entries
+from lagrangian.check.reading.entries import (
+    entered_matrices,
+    solved_matrices,
+    with_determinants,
+    with_symmetric_entries,
+)
 from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
@@ -201,7 +207,7 @@ def _with_said_letters(
     apart = with_running_letters(text, names.known, names.notes)
     listed = apart if latex else with_listed_names(apart, taken, lambda name: key(name) in own)
     said = with_stated_letters(listed, names.changes, taken, latex=latex)
-    return with_called_dissipation(with_values_above(said), taken)
+    return with_called_dissipation(with_routhian(with_values_above(said), taken), taken)
 
 
 def without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -238,7 +244,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
-    tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
+    tagless = with_determinants(solved_matrices(without_drawn_formulas(referred, typed), taken))
     latex = bool(LATEX.search(tagless.text))
     tagless = _with_slopes(tagless, lines, taken, latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)

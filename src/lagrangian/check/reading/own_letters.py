@@ -34,6 +34,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
     found = {*_used_as_names(statements, first, subjects), *_cut_forces(statements, first, subjects)}
+    found |= {
+        key(str(x[0])) for x, sides in zip(first, statements, strict=True) if x is not None and _is_measure(sides)
+    }
     if any(map(_equates_to_power, statements)) and not names.scope.meanings(POWER)[0]:
         found.add(POWER)
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
@@ -87,6 +90,12 @@ def _is_no_dissipation(
     answer may have letters of its own for ``rates``."""
     momentum = _is_heavy(listed, subjects) and not any(_squares_rates(side, rates) for side in sides[1:])
     return _is_force_of_damper(sides) or momentum
+
+
+def _is_measure(sides: Sequence[Tree]) -> bool:
+    """Whether a value stands between bars, as a determinant: D = |M|."""
+    values = [inside(x) for x in sides[1:]]
+    return any(x.data == "call" and str(x.children[0]) == "abs" for x in values)
 
 
 def _is_heavy(listed: Sequence[str], subjects: Subjects) -> bool:
