@@ -34,9 +34,6 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     energies = any(x is not None and energy_of(x[0], model, lhs=True) in ("T", "L") for x in first)
     found = {*_used_as_names(statements, first, subjects), *_cut_forces(statements, first, subjects)}
-    found |= {
-        key(str(x[0])) for x, sides in zip(first, statements, strict=True) if x is not None and _is_measure(sides)
-    }
     if any(map(_equates_to_power, statements)) and not names.scope.meanings(POWER)[0]:
         found.add(POWER)
     rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
@@ -154,13 +151,15 @@ def _used_as_names(
     statements: Sequence[Sequence[Tree]], first: Sequence[tuple[Token, int] | None], subjects: Subjects
 ) -> Iterator[str]:
     """The letters of energies that stand alone in an equation with accelerations, D theta'' = …, or whose rate is
-    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is."""
+    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is; and determinants, D = |M|."""
     kinds = [None if x is None or x[1] else energy_of(x[0], subjects.model, lhs=True) for x in first]
     energies = not {"T", "L"}.isdisjoint(kinds)
     for k, (named, sides, kind) in enumerate(zip(first, statements, kinds, strict=True)):
         if named is None or kind is None or subjects.names.scope.meanings(named[0])[0]:
             continue
         written = str(named[0])
+        if _is_measure(sides):
+            yield key(written)
         states = [undotted(x)[0] for side in sides[1:] for x, _ in names_in(side)]
         if any(x in ("T", "V", "U") and energy_of(x, subjects.model) for x in states):
             continue  # L = T - V
