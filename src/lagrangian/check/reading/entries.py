@@ -51,7 +51,8 @@ _IN_LATEX = re.compile(
     r"\\begin\{(?P<kind>[bpBvV]?matrix|smallmatrix)\}(?P<inside>[^{}\\]*+(?:(?!\\(?:begin|end)\{)[\\{}][^{}\\]*+)*+)\\end\{"
 )
 _MIRRORED = re.compile(
-    r"[*∗⋆★]|\\(?:ast|star)|\\(?:text|mathrm|mbox)\s?\{[ ]?symm?(?:\.|etric|etrisch)?[ ]?\}|symm?(?:\.|etric|etrisch)?"
+    r"[*∗⋆★]|\\(?:ast|star)|\\(?:text|mathrm|mbox)\s?\{[ ]?symm?(?:\.|etric|etrisch)?[ ]?\}|symm?(?:\.|etric|etrisch)?",
+    re.IGNORECASE,
 )
 """What stands in a symmetric matrix for the entry on the other side of its diagonal."""
 _ROW_IN_LATEX = re.compile(r"\\\\(?:\[[^\]\n]{0,9}\])?")
