@@ -185,7 +185,7 @@ def held(line) -> bool:
     return any(n.startswith("⟨") for n in names) or bool(names & {str(e.func) for e in ENERGIES.values()})
 
 
-def test_the_lower_half_of_a_symmetric_matrix_may_be_left_out():
+def test_one_half_of_a_symmetric_matrix_may_be_left_out():
     d = derivation("lecture-3b")
     columns = r"\begin{bmatrix} \ddot x_1 \\ \ddot x_{2r} \end{bmatrix}"
     right = r"\begin{bmatrix} 0 \\ F - k x_{2r} \end{bmatrix}"
@@ -198,8 +198,9 @@ def test_the_lower_half_of_a_symmetric_matrix_may_be_left_out():
     assert len(whole) == 2
     for lower in (r"\text{sym.}", r"\mbox{symmetric}", r"\text{ Symm. }"):
         assert residuals(upper.replace("LOWER", lower)) == whole
+        assert residuals(rf"\begin{{bmatrix}} m_1 + m_2 & {lower} \\ m_2 & m_2 \end{{bmatrix}}") == whole
     with pytest.raises(lg.ParseError, match="has no counterpart above the diagonal"):
-        residuals(r"\begin{bmatrix} m_1 + m_2 & \text{sym.} \\ m_2 & m_2 \end{bmatrix}")
+        residuals(r"\begin{bmatrix} m_1 + m_2 & \text{sym.} \\ \text{sym.} & m_2 \end{bmatrix}")
 
 
 @pytest.mark.parametrize("sign", ["&=&", "&=", "="])

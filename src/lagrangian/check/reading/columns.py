@@ -1,11 +1,13 @@
-"""What is computed with rows and columns that an answer gives by their entries: their length, their products."""
+"""What is computed with matrices that an answer gives by their entries: length, products, determinant, inverse."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian import bounded
 
 
 def crossed(one: MatrixBase, other: MatrixBase) -> Any:
@@ -16,6 +18,21 @@ def crossed(one: MatrixBase, other: MatrixBase) -> Any:
 def square(column: MatrixBase) -> sp.Expr:
     """The sum of the squares of the components."""
     return sp.Add(*[x**2 for x in column.flat()])
+
+
+MOST_ROWS = 3
+"""The most rows of a matrix of which the determinant and the inverse are computed."""
+
+
+def is_square(value: Any) -> bool:
+    """Whether a value is a square matrix whose determinant is computed."""
+    return isinstance(value, MatrixBase) and 1 < value.shape[0] == value.shape[1] <= MOST_ROWS
+
+
+def inverse(matrix: MatrixBase) -> MatrixBase | None:
+    """The inverse of a square matrix; None if its determinant is 0."""
+    below = bounded.expand(cast("sp.Expr", matrix.det()))
+    return None if below == 0 else matrix.adjugate() / below
 
 
 def is_transposed(one: Any, other: Any) -> bool:

@@ -2,6 +2,8 @@ r"""Takes off an answer what is crossed out, which is no part of it: ~~V = k r²
 
 A remark says it of the line in front of it: V = m g z   <- crossed out, V = m g z   ← wrong, see below.
 A sentence says it of itself, I first had V = m g z, because I counted z upwards, where another line states V again.
+A correction says it of what it states anew: Correction to line 2, I forgot g: V = m g z. *V = m g z. Wait, V should be
+m g z.
 """
 
 from __future__ import annotations
@@ -60,16 +62,97 @@ _WHY = re.compile(r"\b(?:because|since|weil|da|car)\b", re.IGNORECASE)
 _WORDS = ("crossed", "struck", "scratched", "gestrichen", "wrong", "incorrect", "falsch", "verworfen", " that", " this")
 _BEFORE = ("first", "initially", "originally", "previously", "erst", "ursprünglich", "zunächst", "abord")
 _MOST = 50
+_OF_LINE = r"(?:[ ](?:to|of|in|for|on|zu|von|in|für|à|de)[ ](?:(?:the|my|der|die)[ ])?(?P<of>[\w()., -]{1,24}?))?"
+_CORRECTS = re.compile(
+    r"^[ \t]*+(?:[>#%-][ \t]++)?(?:\*(?=[^\s*])(?![^\n]*\S\*(?:[\s.,;:]|$))"
+    r"|(?:(?:a|small|one)[ ])?"
+    r"(?:correction|corrected|corrigend[au]m?|erratum|edit|update|typo|korrektur|korrigiert|berichtigung)\b"
+    rf"{_OF_LINE}(?=[ ]?[:,.!–-]|[ \t]*\n|[ ])"
+    r"|(?:(?:oh|ah|hmm+|oops|ups|whoops|sorry|pardon|wait|moment|halt|stop|no|nein|non|actually|i[ ]mean|i[ ]meant"
+    r"|i[ ]mixed|scratch[ ]that|my[ ]mistake|that[ ](?:is|was)[ ]wrong|that's[ ]wrong|mistake|falsch|fehler)\b"
+    r"(?:[ ]?[,.:;!–-]+[ ]?|[ ])){1,4})",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""The beginning of a line that states something anew."""
+_SIGN = re.compile(
+    r"[ \t&]*(?:(?::=|=|:)(?![=>])|[ ](?P<said>(?:should|must|has[ ]to|ought[ ]to)[ ](?:be|read)|muss|müsste)(?=[ ]))"
+)
+_APART = re.compile(r"[,;:.!?(][ \t]|[;:]|\A|\b(?:it[ ]is|so|then|therefore|because|with|und|also|dann)[ ]")
+_ENDS = re.compile(r";|\.(?=\s)|,(?=[ \t]+[^\s=,;:]{1,16}[ \t]*=)|\n|\Z")
+_NO_HEAD = re.compile(
+    r"\W*(?:(?:line|row|step|part|eq\w*|equation|zeile|schritt|gl\w*)\.?[ ]?[(\[]?(?:\d{1,3}|[ivx]{1,4}|[a-h])"
+    r"|[(\[](?:\d{1,3}|[ivx]{1,4}|[a-h])|\d{1,3})\W*",
+    re.IGNORECASE,
+)
+"""What is no name of a quantity: the number of a line."""
+_IN_FORMULA = re.compile(r"[+−·]|\*(?!\Z)|[ ]-[ ]|\d[ ]?[^\W\d_(]|\A[^\w∂ℒ\\(|]|''|\A\W*\d|.{50}")
+"""What stands in sides of equations, and in no name of a quantity."""
 
 
 def without_crossed_out(written: TracedText, notes: dict[str, None]) -> TracedText:
     """Return an answer without what is crossed out; notes tell it."""
-    edits = list(_edits(written.text))
+    again, fronts = _stated_anew(written.text)
+    edits = [x for x in _edits(written.text) if not any(x[0] < b and a < x[1] for a, b, _ in (*again, *fronts))]
+    edits = sorted([*edits, *again])
     for start, end, _ in edits:
         notes.setdefault(
             f"'{' '.join(written.text[start:end].split())}' was not judged: it is crossed out or taken back."
         )
-    return written.edited(edits)
+    return written.edited([*edits, *fronts])
+
+
+def _stated_anew(text: str) -> tuple[list[Edit], list[Edit]]:
+    """What corrections take back, and the words of these in front of what they state anew."""
+    gone: list[Edit] = []
+    fronts: list[Edit] = []
+    for match in islice(_CORRECTS.finditer(text), _MOST):
+        start, end = match.end(), _end(text, match.end())
+        found = _anew(text, match, start, end) if text[start:end].strip(" \t:.,-") else None
+        if found is None and text[start:end].rstrip()[-1:] in ("", ":", ".") and end + 1 < len(text):
+            found = _anew(text, match, end + 1, _end(text, end + 1))
+        if found is not None and not any(a <= found[0][0] < b for a, b, _ in (*gone, *fronts)):
+            gone.append((*found[0], " "))
+            fronts += found[1]
+    return gone, fronts
+
+
+def _anew(text: str, match: re.Match[str], start: int, end: int) -> tuple[tuple[int, int], list[Edit]] | None:
+    """The statement above that a correction states anew, and what is left out of the correction and written in it."""
+    above = list(_heads(text, 0, match.start()))
+    for head, at, sign in _heads(text, start, end):
+        same = [x for x in above if x[0] == head]
+        if same:
+            stop = _ENDS.search(text, same[-1][2].end())
+            edits = [(match.start(), at, "")] if at > match.start() else []
+            edits += [(*sign.span(), " = ")] if sign["said"] else []
+            return (same[-1][1], stop.start() if stop is not None else len(text)), edits
+    moving = _accelerating(text[start:end])
+    lines = [(a, _end(text, a)) for a in _starts(text, match.start())]
+    alike = [x for x in lines if moving and "=" in text[slice(*x)] and _accelerating(text[slice(*x)]) == moving]
+    of = re.search(r"\d{1,2}|\b[ivx]{1,4}\b|\b[a-h]\b", match.groupdict().get("of") or "")
+    if of is not None:
+        numbered = rf"[ \t]*(?:(?:line|eq\w*|equation|zeile|gl\w*)\.?[ ]?)?[(\[]?{of.group()}[)\].:]"
+        alike = [x for x in alike if re.match(numbered, text[slice(*x)], re.IGNORECASE)]
+    if len(alike) != 1 and not (of is None and alike and not text[alike[-1][1] : match.start()].strip()):
+        return None
+    front = re.match(r"[^=:\n]*:[ \t]", text[start:end])
+    return alike[-1], [(match.start(), start + (front.end() if front is not None else 0), "")]
+
+
+def _starts(text: str, end: int) -> Iterator[int]:
+    """Where the lines above a place begin."""
+    yield from (at for at in (0, *(m.end() for m in re.finditer(r"\n", text[:end]))) if at < end)
+
+
+def _heads(text: str, start: int, end: int) -> Iterator[tuple[str, int, re.Match[str]]]:
+    """The names in front of equals signs and colons, with the places where they begin, and these signs."""
+    for sign in islice(_SIGN.finditer(text, start, end), 4 * _MOST):
+        line = max(start, text.rfind("\n", 0, sign.start()) + 1, sign.start() - 80)
+        piece = text[line : sign.start()]
+        at = line + max((m.end() for m in _APART.finditer(piece)), default=0)
+        head = " ".join(text[at : sign.start()].replace("$", "").replace("&", "").split())
+        if head and _NO_HEAD.fullmatch(head) is None and _IN_FORMULA.search(head) is None:
+            yield head, at, sign
 
 
 def _edits(text: str) -> Iterator[Edit]:

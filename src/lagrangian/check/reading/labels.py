@@ -123,7 +123,7 @@ _UNIT = re.compile(
 """The unit of what stands in front of it, at the end of a statement."""
 _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
 _ROMAN = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII"]
-_ORDERS = (_ROMAN, list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
+_ORDERS = (_ROMAN, [x.lower() for x in _ROMAN], list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
 """How equations are numbered in letters."""
 _FACTOR_BEHIND = re.compile(rf"(?<=[\w\u0307\u0308)'’′])[ ]?\(\s?\d{{1,3}}[ ]?(?P<name>[a-z])['’′]{{0,2}}\s?\){_END}")
 """A number and a name in brackets right behind a factor: (2y')."""
@@ -179,7 +179,8 @@ def numbering(text: str, words: Words) -> Numbering:
     in_order = _in_order(marks)
     bracketed = [m for line in text.split("\n") if (m := _COORDINATE.match(line)) and m["round"] and not m["primes"]]
     marked = list(dict.fromkeys(m["round"] for m in bracketed))  # (D) differentiated: … is (D) once more
-    told = len(written) > 1 and (named or lettered or far or _in_order(marked))
+    told = len(written) > 1 and (named or lettered or far)
+    told = told or (bool(written) and len(marked) > 1 and _in_order(marked))
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
     behind_far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
     tags = frozenset(x for x in behind_far if _is_tag(x, text, words))

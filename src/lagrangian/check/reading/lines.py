@@ -338,8 +338,7 @@ class Lines:
             self.names.rates[key(undotted(token)[0]), order] = value
             self._not_judged(reader, f"nothing says what {token} is")
             return []
-        above = reader.value(side)
-        if not isinstance(above, MatrixBase) or above.shape != value.shape:
+        if not isinstance(above := reader.value(side), MatrixBase) or above.shape != value.shape:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         return [
             made_line("equation" if solves(a, b) else "identity", a, b, None, side, side, reader)
@@ -369,7 +368,8 @@ class Lines:
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
 
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
-        kind: Kind = "identity" if self.subjects.is_chain_rule((a, left), (b, right)) else "equation"
+        itself = self.subjects.is_chain_rule((a, left), (b, right))
+        kind: Kind = "identity" if itself or reader.of_matrix > accelerates(left - right) else "equation"
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return made_line("left", None, value, subject.name, a, b, reader)

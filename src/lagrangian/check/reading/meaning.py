@@ -11,8 +11,8 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
-from lagrangian.check.reading.canonical import NAMES, momenta_of, slope_at_momenta
-from lagrangian.check.reading.columns import crossed, is_transposed, shown_shape, square
+from lagrangian.check.reading.canonical import NAMES, ROUTHIAN, ignored, momenta_of, slope_at_momenta
+from lagrangian.check.reading.columns import crossed, inverse, is_square, is_transposed, shown_shape, square
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
@@ -30,10 +30,11 @@ MAX_ENTRIES = 400
 
 class Meaning(ExpressionReader):
     """Evaluates the trees of one statement about a ``kind`` of quantity; ``budget`` is shared by the whole answer. An
-    energy may hold rates that the answer gives further down."""
+    energy may hold rates that the answer gives further down. ``of_matrix``: a determinant or an inverse stood in it."""
 
     def __init__(self, source: Source, names: Names, budget: ReadingBudget, kind: str | None = None) -> None:
         super().__init__(source, names.scope)
+        self.of_matrix = False
         self.names, self.budget, self.energy = names, budget, kind in ENERGIES
         self.slopes: dict[str, str] = {}
         """The names of the answer, functions of one coordinate, whose primes are slopes."""
@@ -178,15 +179,23 @@ class Meaning(ExpressionReader):
         return self._differentiated(self.names.relations.into(whole, variable), variable, node)
 
     def _at_momenta(self, kind: str, energy: sp.Expr, variable: sp.Expr, by: Node) -> sp.Expr | None:
-        """The derivative of an answer's own H, in which its momenta are held or differentiated by; None of another."""
-        coordinates = [c.symbol for c in self.names.model.coordinates]
-        momenta = momenta_of(self.names.own, [q.diff(time) for q in coordinates]) if kind in NAMES else {}
+        """The derivative of an answer's own H or R, in which its momenta are held or differentiated by; None of
+        another. Where nothing says whose momenta R holds, it is not judged."""
+        coordinates: list[Any] = [c.symbol for c in self.names.model.coordinates]
+        if kind == ROUTHIAN:
+            momenta, held = ignored(self.names.model.expand(energy), self.names.own, coordinates)
+            if not momenta:
+                return slope(key(kind), variable)
+        else:
+            momenta = momenta_of(self.names.own, [q.diff(time) for q in coordinates]) if kind in NAMES else {}
+            held = coordinates
+        free = [*coordinates, *(q.diff(time) for q in coordinates if q not in held)]
         named = only_name(by)
-        chosen = variable if variable in coordinates else key(undotted(named[0])[0]) if named and not named[1] else None
+        chosen = variable if variable in free else key(undotted(named[0])[0]) if named and not named[1] else None
         if chosen is None or (chosen != variable and chosen not in momenta) or not momenta:
             return None
-        whole, held = self.names.model.expand(energy), {x: self.names.model.expand(p) for x, p in momenta.items()}
-        found = slope_at_momenta(whole, held, coordinates, chosen, lambda x, y: self._differentiated(x, y, by))
+        whole, fixed = self.names.model.expand(energy), {x: self.names.model.expand(p) for x, p in momenta.items()}
+        found = slope_at_momenta(whole, fixed, held, chosen, lambda x, y: self._differentiated(x, y, by))
         if found is not None:
             self._spend(found, by)
         return found
@@ -349,6 +358,10 @@ class Meaning(ExpressionReader):
     def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
         if isinstance(base, MatrixBase) and base.shape[1] == 1 and exponent == 2:
             return square(base)  # v^2 of a velocity that is given by its components
+        if is_square(base) and exponent == -1 and (found := inverse(base)) is not None:
+            self._spend(found, node)
+            self.of_matrix = True
+            return cast("Any", found)  # M^-1 f
         if isinstance(base, MatrixBase) or isinstance(exponent, MatrixBase):
             self.fail("a matrix is raised to a power", node, fix="write the equations out row by row")
         return super()._raise(node, base, exponent)
@@ -362,6 +375,9 @@ class Meaning(ExpressionReader):
                 continue
             if str(node.children[0]) in ("abs", "norm") and found.shape[1] == 1:
                 return sp.sqrt(square(found))
+            if str(node.children[0]) == "abs" and is_square(found):
+                self.of_matrix = True
+                return cast("sp.Expr", found.det())  # |M|
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
 

@@ -19,6 +19,17 @@ RATE_OR_NAME = rf"{LETTER}(?>{INNER}*)['’′″]{{0,3}}(?:\^2|²)?"
 IDENT = r"[^\W\d]\w{0,39}+"
 """A name as programs have it."""
 
+CALLED_SO = (
+    r"(?:(?:which|that|what|this)[ ]|and[ ]|,[ ]?|;[ ]?|\([ ]?|[–—-][ ])(?:(?:I|we)[ ](?:will[ ]|shall[ ])?(?:call|name"
+    r"|denote|abbreviate)(?:[ ](?:it|this|that|by|as|with)){0,2}|(?:let(?:'s|[ ]us|[ ]me)[ ])?call(?:ed|ing)?"
+    r"(?:[ ](?:it|this|that))?"
+    r"|(?:abbreviated|denoted|named|genannt|kurz|for[ ]short|in[ ]short)(?:[ ](?:as|by|with|it))?"
+    r"|is[ ](?:called|denoted[ ]by)|(?:ich|wir)(?:[ ]mit)?)[ ]"
+)
+"""Words behind a formula and in front of the name that it is given."""
+CALLED_AFTER = r"(?:[ ](?:nenne|nennen|bezeichne|bezeichnen|for[ ]short|from[ ]now[ ]on|below))?[ ]?\)?"
+"""Words behind such a name."""
+
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 """The digits and signs that stand for raised ones."""
 LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")

@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection
 from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
+from lagrangian.check.reading.canonical import with_routhian
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
@@ -21,7 +22,12 @@ from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
-from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.entries import (
+    entered_matrices,
+    solved_matrices,
+    with_determinants,
+    with_symmetric_entries,
+)
 from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
@@ -71,7 +77,7 @@ from lagrangian.check.reading.said.deviations import with_deviations
 from lagrangian.check.reading.said.elements_behind import without_elements_behind
 from lagrangian.check.reading.said.explained_names import with_explained_names
 from lagrangian.check.reading.said.factors_named_behind import with_factors_named_behind
-from lagrangian.check.reading.said.glossed_names import without_glosses_of_names
+from lagrangian.check.reading.said.glossed_names import with_words_below, without_glosses_of_names
 from lagrangian.check.reading.said.listed_names import with_listed_names
 from lagrangian.check.reading.said.of_each import with_names_of_each
 from lagrangian.check.reading.said.quantity_words import with_items
@@ -87,7 +93,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_stated_values,
     with_variations,
 )
-from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.subscripts import with_energies_below, with_index_of_time
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.said.turned_by import with_turned_bodies
@@ -188,8 +194,12 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
         return text
     moving = {key(c.name) for c in lines.model.coordinates}
     spelled = lines.model.symbols.__contains__
-    text = without_glosses_of_names(text, lines.model, taken)
-    return with_letters_apart(text, lambda name: key(name) in moving, spelled, taken, lines.names.notes)
+
+    def moves(name: str) -> bool:
+        return key(name) in moving
+
+    text = with_words_below(without_glosses_of_names(text, lines.model, taken), moves, taken, exact=spelled)
+    return with_letters_apart(text, moves, spelled, taken, lines.names.notes)
 
 
 def _with_said_letters(
@@ -200,7 +210,7 @@ def _with_said_letters(
     apart = with_running_letters(text, names.known, names.notes)
     listed = apart if latex else with_listed_names(apart, taken, lambda name: key(name) in own)
     said = with_stated_letters(listed, names.changes, taken, latex=latex)
-    return with_called_dissipation(with_values_above(said), taken)
+    return with_called_dissipation(with_routhian(with_values_above(said), taken), taken)
 
 
 def without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -212,13 +222,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
-    if not LATEX.search(text):
-        copied = with_indexed_coordinates(copied, [c.name for c in lines.model.coordinates], names.scope.meanings)
-        copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
-    copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
-    dotted = with_dots_above(copied, lambda name: key(name) in moving)
-    dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
+    dotted = _copied_with_dots(text, lines, taken)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
@@ -233,11 +237,12 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
+    session = with_energies_below(session, lambda name: key(name) in moving, taken)
     relaxed = without_legend(_with_times(session, lambda name: key(name) in moving, taken))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
         relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
-    tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
+    tagless = with_determinants(solved_matrices(without_drawn_formulas(referred, typed), taken))
     latex = bool(LATEX.search(tagless.text))
     tagless = _with_slopes(tagless, lines, taken, latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
@@ -263,6 +268,20 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _copied_with_dots(text: str, lines: Lines, taken: Callable[[str], bool]) -> TracedText:
+    """An answer without marks of copying, with the general form in its entries and dots above letters behind them."""
+    names, latex = lines.names, bool(LATEX.search(text))
+    coordinates = [c.name for c in lines.model.coordinates]
+    moving = {key(name) for name in coordinates}
+    copied = with_symmetric_entries(_copied(text), names.notes)
+    if not latex:
+        copied = with_indexed_coordinates(copied, coordinates, names.scope.meanings)
+        copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
+    copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
+    dotted = with_dots_above(copied, lambda name: key(name) in moving)
+    return dotted if latex else with_summed_tables(dotted, taken, names.notes)
 
 
 def _with_times(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:

@@ -102,6 +102,12 @@ def _is_no_dissipation(
     return _is_force_of_damper(sides) or momentum
 
 
+def _is_measure(sides: Sequence[Tree]) -> bool:
+    """Whether a value stands between bars, as a determinant: D = |M|."""
+    values = [inside(x) for x in sides[1:]]
+    return any(x.data == "call" and str(x.children[0]) == "abs" for x in values)
+
+
 def _is_heavy(listed: Sequence[str], subjects: Subjects) -> bool:
     """Whether a mass or a moment of inertia is among names."""
     heavy = {x for body in subjects.model.bodies for x in inertia_letters(body, lengths=False)}
@@ -158,13 +164,15 @@ def _used_as_names(
     statements: Sequence[Sequence[Tree]], first: Sequence[tuple[Token, int] | None], subjects: Subjects
 ) -> Iterator[str]:
     """The letters of energies that stand alone in an equation with accelerations, D theta'' = …, or whose rate is
-    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is."""
+    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is; and determinants, D = |M|."""
     kinds = [None if x is None or x[1] else energy_of(x[0], subjects.model, lhs=True) for x in first]
     energies = not {"T", "L"}.isdisjoint(kinds)
     for k, (named, sides, kind) in enumerate(zip(first, statements, kinds, strict=True)):
         if named is None or kind is None or subjects.names.scope.meanings(named[0])[0]:
             continue
         written = str(named[0])
+        if _is_measure(sides):
+            yield key(written)
         states = [undotted(x)[0] for side in sides[1:] for x, _ in names_in(side)]
         if any(x in ("T", "V", "U") and energy_of(x, subjects.model) for x in states):
             continue  # L = T - V

@@ -42,7 +42,8 @@ _TIMES = re.compile(r"\s*[*·×@]?\s*")
 _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
 _NAMED_ROW = re.compile(
-    r"\s*+[^\W\d]\w*+\s*+(?:\([\w,; '’′\u0307]{1,24}\)\s*+)?=\s*+\[(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z"
+    r"\s*+[^\W\d]\w*+(?:⁻¹|\^\(?-1\)?)?+\s*+(?:\([\w,; '’′\u0307]{1,24}\)\s*+)?=\s*+"
+    r"(?:[^\[\]=;\n]{1,80}?[)\w²³][ \t]*+[*·×⋅]?[ \t]*+)?\[(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z"
 )
 _ROW_ALONE = re.compile(r"\s*+(?P<open>\[)(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
 _ATOM = r"[^\W\d]\w{0,15}['’′]{0,2}"
@@ -81,7 +82,8 @@ def on_one_line(written: TracedText) -> TracedText:
 
 
 def _named_rows(written: TracedText) -> TracedText:
-    """A matrix with a name and rows in brackets in lines below each other, M = [a  b], [c  d], as M = [a  b; c  d].
+    """A matrix with a name and rows in brackets in lines below each other, M = [a  b], [c  d], as M = [a  b; c  d]; so
+    also its inverse, M⁻¹ = 1/D [c  -b], [-b  a], with a factor.
 
     Rows whose entries have commas between them have the same number of entries.
     """

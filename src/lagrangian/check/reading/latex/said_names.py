@@ -2,6 +2,7 @@ r"""Names that an answer in LaTeX gives otherwise than by a formula of its own: 
 
 \underbrace{(J + m l^2)}_{\Theta} \ddot\theta = …        $\Theta = (J + m l^2)$ in front, where \Theta is used again
 $S$ = tension in the hitch $= k u + c\dot u$              tension in the hitch $S = k u + c\dot u$
+$\frac{d}{dt} p = m \ddot x$, which we call $Z$            $\frac{d}{dt} p = m \ddot x = Z$
 $\Theta$ & $= J + m l^2$ \\                               $\Theta = J + m l^2$, in a row of a table
 \begin{tabular}{l@{$=$}l} $x_1$ & $x - d$ \\              $x_1 = x - d$
 """
@@ -13,6 +14,7 @@ from collections.abc import Callable
 from itertools import islice
 
 from lagrangian.check.reading.latex.layout import closing
+from lagrangian.check.reading.name_patterns import CALLED_AFTER, CALLED_SO
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST = 40
@@ -40,6 +42,11 @@ _IN_CELL = re.compile(
     rf"\$(?P<new>{_NAME})\$[ \t]*+[&|][ \t]*+(?:[^\W\d_][^$&|\\\n=]{{0,80}})?\$(?P<sign>[ \t]*+=)(?![=>])"
 )
 """A name and its value in cells of a table that stand beside each other."""
+_NAMED_BEHIND = re.compile(
+    rf"(?P<of>=[^=$]{{1,400}})(?P<said>\$\$?,?[ \n]{CALLED_SO}\$(?P<new>{_NAME})\$)(?={CALLED_AFTER}\s*(?:[.,;]|\Z))",
+    re.IGNORECASE,
+)
+"""A name that words give to the end of a formula in front of them."""
 
 _COLUMNS = re.compile(
     r"\\begin\s?\{(?P<kind>tabular|tabularx|longtable)\*?\}(?P<spec>\{(?:[^{}\n]|\{[^{}\n]{0,40}\}){1,80}\})"
@@ -76,6 +83,9 @@ def _with_names_in_words(written: TracedText, taken: Callable[[str], bool]) -> T
             continue
         edits.append((match.start(), match.start("words"), " "))
         edits.append((*match.span("sign"), f"{match['new']} ="))
+    for match in islice(_NAMED_BEHIND.finditer(written.text), MOST):
+        if not taken(_bare(match["new"])) and not _is_given(written.text, match["new"]):
+            edits.append((*match.span("said"), f" = {match['new']}" + "$" * (1 + match["said"].startswith("$$"))))
     for match in islice(_IN_CELL.finditer(written.text), MOST):
         if not taken(_bare(match["new"])) and not _is_given(written.text, match["new"]):
             edits.append((*match.span("sign"), f"{match['new']} ="))

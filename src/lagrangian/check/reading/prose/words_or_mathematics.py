@@ -258,7 +258,9 @@ def _introduces(said: re.Match[str], words: Words) -> bool:
     plain = [x.isdigit() or is_common(x, words) or is_word(x, words) or x.lower() in CHANGING for x in listed]
     short = [x in _ARTICLES or (1 < len(x) < _SHORTEST and x.islower() and _is_new(x, words)) for x in listed]
     between = [x and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(short)]
-    return any(is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
+    return any(not x.isdigit() and is_word(x, words) for x in listed) and all(
+        a or b for a, b in zip(plain, between, strict=True)
+    )
 
 
 def _is_new(written: str, words: Words) -> bool:

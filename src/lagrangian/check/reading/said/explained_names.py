@@ -5,6 +5,8 @@ K ... static moment, (m*l/2 + M*l)*g                       K = (m*l/2 + M*l)*g
 Q: everything that turns, seen from O, = J + m l²          Q = J + m l²
 z = height of the plate (= l sin φ). Then …                z = l sin φ; Then …
 Here K is k*(r*phi - s), and A stands for b*s'             K = k*(r*phi - s); A = b*s'
+The spring pulls with k*(r*phi - s), which I call K.       K = k*(r*phi - s)
+d/dt(a θ') = a θ'', which we call Z                        d/dt(a θ') = a θ'' = Z
 
 A letter that would be read as a name of the system in the other case, K as k, is a name of its own there.
 """
@@ -12,9 +14,10 @@ A letter that would be read as a name of the system in the other case, K as k, i
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import CALLED_AFTER, CALLED_SO
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
@@ -22,6 +25,8 @@ from lagrangian.check.reading.unit_checks import UNITS
 
 MOST = 40
 """The most such lines and sentences."""
+LONGEST = 400
+"""The most characters of a formula with a name behind it."""
 MOST_LETTERS = 3
 """The most letters of a product without signs in a formula."""
 
@@ -51,6 +56,13 @@ _SAID = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 """A name and its formula in a sentence."""
+_NAMED_BEHIND = re.compile(
+    rf"(?P<said>[ \t]*,?[ \t]+{CALLED_SO}(?P<new>{_NAME}){CALLED_AFTER})(?=[ \t]*(?:[.,;](?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name behind its formula, with words that say that this is called so."""
+_LAST_WORD = re.compile(r"(?<!\w)[^\W\d_]{2,24}[ \t]+(?=[^\w]|\w{1,3}(?!\w)|\w{1,12}[ \t]*[*(^'’′])")
+_CLAUSE = re.compile(r"[;:=]|[.](?=\s)|\n")
 _WORD = re.compile(r"[^\W\d_²³⁴]\w*")
 _OPERATOR = re.compile(r"[-−+*/^·×²³(]")
 _SUM = re.compile(r"[-−+(]")
@@ -81,7 +93,28 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
         if own and is_formula(match["value"], taken):
             edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
             edits.append((*match.span("end"), ";"))
+    edits += _named_behind(text, taken)
     return written.edited(apart(edits))
+
+
+def _named_behind(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
+    """The statements of names behind their formulas: the end of a chain, or a statement behind words."""
+    for match in islice(_NAMED_BEHIND.finditer(text), MOST):
+        new = match["new"]
+        used = len(re.findall(rf"(?<!\w){re.escape(new)}(?!\w)", text)) > 1
+        if taken(new) or not used or function_of(new) is not None or re.search(rf"(?<!\w){new}[ \t]*:?=(?!=)", text):
+            continue
+        start = text.rfind("\n", 0, match.start()) + 1
+        clause = text[max(start, match.start() - LONGEST) : match.start()]
+        cut = max((m.end() for m in _CLAUSE.finditer(clause)), default=0)
+        if clause[max(0, cut - 1) : cut] == "=":
+            yield (*match.span("said"), f" = {new}")
+            continue
+        words = [m for m in _LAST_WORD.finditer(clause, cut) if not taken(m.group().strip())]
+        value = clause[words[-1].end() if words else cut :].strip(" \t,")
+        if is_formula(value, taken):
+            at = match.start() - len(clause) + clause.rindex(value)
+            yield at, match.end("said"), f"; {new} = {value}"
 
 
 def _is_rate(words: str, name: str) -> bool:

@@ -18,7 +18,8 @@ from lagrangian.quantities.units import joined, lookup
 
 _VALUE = re.compile(
     rf"(?<![\w.])(?P<name>{BARE_NAME})(?:\^\d|[²³])?+[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
-    r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
+    r"(?P<below>[ \t]*+/[ \t]*+\d++(?:\.\d++)?+)?+"
+    r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*/[ \t]*[\d(]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:(?:[ \t]|[ ]?[/·*][ ]?)?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
 _AMOUNT = r"\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+"
@@ -76,7 +77,7 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         for match, start, below in zip(found, starts, [*starts[1:], len(line)], strict=True):
             unit = match["unit"] or "" if match.end() <= below else ""
             read = not _same(match, values(match["name"])) and _factor(unit) not in (None, 1.0)
-            end = match.end() if read and unit else match.end("number")
+            end = match.end() if read and unit else match.end("below") if match["below"] else match.end("number")
             kept[start:end] = line[start:end].replace(",", ".")
             if end < len(line):
                 kept[end] = ";"

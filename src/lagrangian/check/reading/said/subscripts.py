@@ -1,7 +1,10 @@
-r"""Reads rates that are written with t as an index, where an answer writes accelerations so or says it.
+r"""Reads rates that are written with t as an index, where an answer writes accelerations so or says it, and derivatives
+of energies that have what they are taken by as an index.
 
 w = phi_t, J w_t + b w = tau, m x_tt = F      w = phi', J w' + b w = tau, m x'' = F
 \theta_{tt}, x_t                              \ddot{\theta}, \dot{x}
+L_xd = m xd, d/dt L_ẋ - L_x = 0               ∂L/∂xd = m xd, d/dt (∂L/∂ẋ) - (∂L/∂x) = 0
+T_{\dot x}, V_\varphi                         \frac{\partial T}{\partial \dot x}, \frac{\partial V}{\partial \varphi}
 """
 
 from __future__ import annotations
@@ -9,7 +12,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from lagrangian.check.reading.name_patterns import DOTS, NAME
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.read.letters import undotted
 
 _STEM = r"(?P<of>\\?[^\W\d_]\w{0,23}?)"
 _PLAIN = re.compile(rf"(?<![\w\\]){_STEM}_(?P<by>t{{1,2}})(?![\w'’′(])")
@@ -27,6 +33,70 @@ _EXPLAINED = re.compile(
     re.IGNORECASE,
 )
 """Words that say it of every letter that is none of a constant."""
+
+_OF_ENERGY = re.compile(rf"(?<![\w\\])(?P<of>[LTVUDℒ])_(?P<by>(?:(?!_){NAME})(?>['’′]?))(?![\w'’′(])")
+_OF_ENERGY_IN_LATEX = re.compile(
+    r"(?<![A-Za-z\\])(?P<of>[LTVUD]|\\mathcal[ ]?\{?L\}?)[ ]?_[ ]?"
+    r"(?:\{[ ]?(?P<by>(?:\\dot(?![A-Za-z])[ ]?)?\{?[ ]?\\?[A-Za-z]{1,12}(?:_\w)?[ ]?\}?)[ ]?\}"
+    r"|(?P<short>\\[A-Za-z]{1,12}|[a-z])(?![\w{]))(?!['’′])"
+)
+_BY_TIME_BEFORE = re.compile(r"(?:d[ ]?/[ ]?d[ ]?t|\\[dt]?frac\{[ ]?d[ ]?\}\{[ ]?dt[ ]?\})[ ]?[({\[]?[ ]?\Z")
+
+
+def with_energies_below(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which L_x and L_ẋ are derivatives of L, where it has one by a rate.
+
+    L_xd and L_x' may be the rate of an angular momentum L_x: they are derivatives where they are differentiated by time
+    or a line says what L is as a whole, L = T - V; T = T_x + T_y are parts. ``moves`` says whether a name is a
+    coordinate, ``taken`` whether it belongs to the system.
+    """
+    text = written.text
+    latex = "\\" in text or "$" in text
+    form = _OF_ENERGY_IN_LATEX if latex else _OF_ENERGY
+    found = [(m, by) for m in form.finditer(text) if (by := _by(m, moves)) is not None]
+    found = [(m, by) for m, by in found if not taken(_name(m["of"])) and not taken(_name(m.group()))]
+    letters = {m["of"] for m, _ in found if not _is_part(text, m["of"])}
+    rated = {m["of"] for m, order in found if order == 1 and m["of"] in letters and _is_slope(text, m, latex=latex)}
+    if not rated:
+        return written
+    letters = {x for x in letters if x in rated or (x in "VU" and "T" in rated)}
+    return written.edited((*m.span(), _slope(m, latex=latex)) for m, _ in found if m["of"] in letters)
+
+
+def _by(match: re.Match[str], moves: Callable[[str], bool]) -> int | None:
+    """By which order of a coordinate an index differentiates, 0 or 1; None for another index."""
+    by = match["by"] or match["short"]
+    if "\\dot" in by:
+        return 1 if moves(_name(by.replace("\\dot", "")).strip()) else None
+    bare, dots = undotted(_name(by.rstrip("'’′")).strip())
+    dots += len(by) - len(by.rstrip("'’′"))
+    if moves(bare):
+        return dots if dots < 2 else None
+    return 1 if not dots and any(order == 1 and moves(stem) for order, stem in spelled_rates(bare)) else None
+
+
+def _is_part(text: str, of: str) -> bool:
+    """Whether a line gives an energy as the sum of parts with such indices: T = T_x + T_y."""
+    return re.search(rf"(?<![\w\\]){re.escape(of)}[ \t&]*=(?!=)[^\n]{{0,80}}?{re.escape(of)}[ ]?_", text) is not None
+
+
+def _is_slope(text: str, match: re.Match[str], *, latex: bool) -> bool:
+    """Whether an energy with a rate as its index can be no rate of the energy with that index."""
+    if latex or re.search(DOTS, match["by"]) or undotted(match["by"])[1]:
+        return True
+    if _BY_TIME_BEFORE.search(text[max(0, match.start() - 24) : match.start()]):
+        return True
+    whole = rf"(?<![\w\\_]){match['of']}\*?(?:[ ]?\([^()\n]{{1,60}}\))?[ \t]*=(?!=)"
+    return re.search(whole, text) is not None
+
+
+def _slope(match: re.Match[str], *, latex: bool) -> str:
+    """The derivative of an energy by what stands as its index."""
+    of, by = match["of"], match["by"] or match["short"]
+    if latex:
+        return rf"\frac{{\partial {of}}}{{\partial {by}}}"
+    alone = re.match(r"[ \t]*=(?!=)", match.string[match.end() :][:20])
+    return f"∂{of}/∂{by}" if alone else f"(∂{of}/∂{by})"
 
 
 def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -66,7 +136,7 @@ def _is_stated(text: str, name: str) -> bool:
 
 
 def _name(written: str) -> str:
-    return re.sub(r"[\\{}]", "", written)
+    return re.sub(r"\\var(?=[a-z])|[\\{}]", "", written)
 
 
 def _written(match: re.Match[str], *, latex: bool) -> str:

@@ -46,6 +46,12 @@ _BY_TIME = re.compile(r"(?:d[ ]?/[ ]?dt|\\[dt]?frac\{d\}\{dt\})(?:[ ]?[(\[][.…
 _FORCE = re.compile(r"(?:Q|Ξ|\\Xi)(?:_\{?(?:q|nc|i|k|\\xi|ξ)\}?)?(?:\^\{?nc\}?)?")
 _OF_ONE = re.compile(r"(?:Q|Ξ|\\Xi)_?\{?\\?[^\W_]{1,8}\}?")
 _GENERAL = re.compile(r"(?:q|ξ|\\xi)(?:_?[ik])?|x_?[ik]")
+_ABOUT = re.compile(
+    r"(?:(?:q|ξ|\\xi|x|i|k|n)(?:_?[ijk]|_\{[ijk]\})?[ ]?(?:=|:|→|\\to)"
+    r"|(?:for|of|by|row|column|coordinate|für|nach|Koordinate)[ ])"
+    r"[ ]?(?P<of>\\?[^\W\d_]\w{0,11})"
+)
+"""Which coordinate a row or a column is about, if a general letter or a word says it."""
 _WORD = re.compile(r"(?<![\w\\])[A-Za-z][a-z]{2,}(?![\w'’′(])")
 
 
@@ -70,7 +76,12 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
         if not 2 < len(lines) <= MOST or _RULE.fullmatch(lines[1]) is None or max(map(len, lines)) > LONGEST:
             continue
         cells = [[_bare(x) for x in line.strip()[1:-1].split("|")] for line in lines]
-        if "=" in match.group():
+        cells = [
+            [_coordinate(x, moves) for x in cells[0]],
+            cells[1],
+            *([_coordinate(x[0], moves), *x[1:]] for x in cells[2:]),
+        ]
+        if any("=" in x for row in cells for x in row):
             edits += _sides(match.start(), lines, cells) or _without_labels(match.start(), lines)
             continue
         made = _made([cells[0], *cells[2:]], moves, taken)
@@ -258,6 +269,12 @@ def _bare(cell: str) -> str:
     bare = cell.strip().strip("*`").strip()
     marked = bare.startswith("$") and bare.endswith("$") and bare.count("$") == 2
     return bare.strip("$").strip() if marked else bare
+
+
+def _coordinate(cell: str, moves: Callable[[str], bool]) -> str:
+    """The coordinate that a cell in front or above is about, q = x, i = x or "for x"; other cells as they are."""
+    match = _ABOUT.fullmatch(cell)
+    return match["of"] if match is not None and moves(_name(match["of"])) else cell
 
 
 def _name(cell: str) -> str:
