@@ -12,7 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.hints import MistakeKind, advised, hinted, kind_of
-from lagrangian.page.formula import Left, Text
+from lagrangian.page.formula import Left, Text, text
 from lagrangian.page.plain import plain
 from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
@@ -36,6 +36,8 @@ class Status(StrEnum):
 
 _SQUARE = re.compile(r"(?:²|(?:\^|\*\*)[ ]?\{?[ ]?2[ ]?\}?)[ \t$&]*\Z")
 """How the left side of a statement ends that is a square."""
+IS_MISSING = " is missing"
+"""What a note says behind the name of what an incomplete answer lacks."""
 WOULD_BE_RIGHT = "would be right"
 """What a note says that gives the remedy."""
 _IN_LINE = re.compile(r"In line (\d{1,6})\b")
@@ -292,6 +294,20 @@ class Verdict:
         if self.right or self.hint >= 3:
             return self.notes
         return tuple(n for n in self.notes if _names_only(n) and WOULD_BE_RIGHT not in str(n))
+
+    @property
+    def missing(self) -> tuple[Text, ...]:
+        """The names of what an incomplete answer lacks, where they are known."""
+        found: list[Text] = []
+        for *first, last in (note.parts for note in self.notes if self.status is Status.INCOMPLETE):
+            if isinstance(last, str) and IS_MISSING in last:
+                parts = [x for x in (*first, last.partition(IS_MISSING)[0]) if x != ""]
+                named = [
+                    str(x).replace("The ", "the ", 1) if k == 0 and isinstance(x, str) else x
+                    for k, x in enumerate(parts)
+                ]
+                found.append(text(*named))
+        return tuple(found)
 
     def concerned(self, mistake: Mistake) -> list[str]:
         """The element of a mistake, or those from which differences come, in its equation and its ledger, less those

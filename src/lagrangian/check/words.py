@@ -104,7 +104,11 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
                 "The motion is right. These are not Lagrange's equations one by one, but they say the same together.",
             )
         case Status.INCOMPLETE:
-            return ("Right as far as it goes, but something is missing.",)
+            named = [
+                (", " if k else ": ", *lacks.parts) for k, lacks in enumerate(verdict.missing if verdict.hint else ())
+            ]
+            said = [x for words in named for x in words]
+            return ("Right as far as it goes, but something is missing", *said, ".")
         case Status.WRONG:
             if wrong == lines or verdict.hint == 0:
                 return ("Not right yet.",)
