@@ -103,3 +103,8 @@ def test_answers_are_judged_while_other_processes_begin(monkeypatch: pytest.Monk
 
     found = carts().check_class(answers, processes=2, progress=progress)
     assert [row.right for row in found.rows] == [True] * 6 and told[-1] == 6
+
+
+def test_a_question_in_a_message_ends_with_its_own_mark() -> None:
+    (row,) = carts().check_class({"typo": WHOLE.replace("m2*x2r''", "mm2*x2r''")}).rows
+    assert row.trouble and "Did you mean" in row.trouble and "?." not in row.trouble

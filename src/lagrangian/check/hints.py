@@ -51,7 +51,7 @@ _NAMES: Mapping[MistakeKind, str] = {
     MistakeKind.MISSING: (
         "term_forgotten left_out left_out_of_a_sum piece_left_out segment_left_out "
         "velocity_part_left_out turning_part_left_out deflection_left_out rate_left_out "
-        "base_motion_forgotten child_mass_forgotten coupling_forgotten cross_term_forgotten "
+        "base_motion_forgotten carried_mass_forgotten coupling_forgotten cross_term_forgotten "
         "effort_term_forgotten element_forgotten gradient_forgotten gravity_forgotten inertia_left_out "
         "one_component position_in_flux_forgotten potential_forgotten reaction_forgotten "
         "rotation_forgotten translation_forgotten velocity_terms_forgotten"
@@ -83,7 +83,8 @@ _NAMES: Mapping[MistakeKind, str] = {
     ),
     MistakeKind.DERIVATIVE: ("inner_derivative product_rule"),
     MistakeKind.SHARE: (
-        "share_repeated share_moved arm_added force_wrong_equation input_everywhere spring_on_parent torque_on_parent"
+        "share_repeated share_moved arm_added force_wrong_equation input_everywhere spring_on_carrier "
+        "counted_without_work"
     ),
     MistakeKind.TERM: ("inertia_form inertia_about_pivot damper_in_potential energy_for_coenergy"),
 }

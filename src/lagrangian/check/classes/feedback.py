@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.classes.marks import PartMark
@@ -17,6 +18,14 @@ from lagrangian.page.report import Part, Report
 def number(value: float) -> str:
     """Points in words: no more digits than needed."""
     return f"{round(value, 2):g}"
+
+
+def in_letters(said: Text) -> str:
+    """A sentence as plain text, in which a generalized force has the letter that it has everywhere else."""
+    return _FORCE.sub("Ξ", str(said))
+
+
+_FORCE = re.compile(r"\bXi(?![^\W_])")
 
 
 def feedback_report(
@@ -80,9 +89,9 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
                 f", {listed(found)}" if (found := verdict.concerned(m)) else ""
             )
             if verdict.hint >= 3:
-                yield f"{m.what} ({place})"
+                yield f"{in_letters(m.what)} ({place})"
             else:
-                yield f"{m.hinted()} ({place})"
+                yield f"{in_letters(m.hinted())} ({place})"
     if earned and verdict.hint >= 1:
         said = ", ".join(f"{m.title} {number(m.points)}/{number(m.of)}" for m in earned)
         yield f"Points: {said}."

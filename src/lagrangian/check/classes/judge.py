@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
 
 from lagrangian.advice import Advice, Argument
-from lagrangian.check.classes.feedback import comment, feedback_report, words_report
+from lagrangian.check.classes.feedback import comment, feedback_report, in_letters, words_report
 from lagrangian.check.classes.marks import lacking, marks
 from lagrangian.check.classes.scheme import MarkingScheme
 from lagrangian.check.reading import decode_answer, parse_answer
@@ -118,8 +118,8 @@ def _of_one_place(error: Error) -> str:
     if place is not None and place.line is not None:
         column = "" if place.column is None else f", column {place.column}"
         said.insert(0, f"line {place.line}{column}")
-    fix = f" {error.fix[0].upper()}{error.fix[1:].rstrip('.')}." if error.fix else ""
-    return f"{': '.join(said)}.{fix}"
+    fix = f" {error.fix[0].upper()}{error.fix[1:].rstrip('.')}" if error.fix else ""
+    return f"{': '.join(said)}.{fix}{'' if fix.endswith(('?', '!')) or not fix else '.'}"
 
 
 def with_page(record: Record, model: Model, judging: Judging) -> Record:
@@ -168,9 +168,9 @@ def _mistake(mistake: Mistake) -> dict[str, Any]:
     return {
         "name": mistake.name,
         "kind": mistake.kind.value,
-        "what": str(mistake.what),
-        "brief": str(mistake.brief) if mistake.brief is not None else "",
-        "hinted": str(mistake.hinted()),
+        "what": in_letters(mistake.what),
+        "brief": in_letters(mistake.brief) if mistake.brief is not None else "",
+        "hinted": in_letters(mistake.hinted()),
         "step": mistake.step,
         "element": mistake.concerns,
     }

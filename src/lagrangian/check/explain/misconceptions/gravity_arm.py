@@ -13,7 +13,7 @@ from lagrangian.page.formula import text
 STEP = 3
 TWICE, HALF = "twice", "half"
 """How far a height is taken."""
-WHY = text("The height is that of the centre of mass: measure how far from its parent that is, along the body.")
+WHY = text("The height is that of the centre of mass: measure how far from its hinge that is, along the body.")
 WHY_FACTOR = text("How far does the body rise when the coordinate grows by 1? An angle counts with its radius or arm.")
 """For a height that lacks its arm."""
 
