@@ -52,7 +52,7 @@ def called_by_letters(items: Iterable[Item], model: Model) -> tuple[Item, ...]:
     return tuple(map(put, items))
 
 
-def _of_coordinates(item: Text, symbols: Mapping[str, sp.Symbol]) -> Text:
+def _of_coordinates(item: Text, symbols: Mapping[str, sp.Expr]) -> Text:
     """A text in which the coordinate of a line stands as a symbol: Ξ of θ₁, and not Ξ of theta1."""
     parts: list[str | Verbatim | Left] = []
     for part in item.parts:

@@ -11,7 +11,7 @@ from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
 from lagrangian.model import Model
-from lagrangian.page.formula import Item, Left, Table, Text, text
+from lagrangian.page.formula import Item, Left, Table, Text, Verbatim, text
 from lagrangian.page.report import Part, Report
 
 STEPS = {
@@ -86,7 +86,7 @@ def _numbered(lines: Sequence[int]) -> str:
     return f"line{'s' * (len(lines) > 1)} {listed([*map(str, lines)])}" if len(lines) <= MOST_SAID_ABOVE else "lines"
 
 
-def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
+def _headline(verdict: Verdict) -> tuple[str | Verbatim | Left, ...]:
     if not verdict.findings:
         return ("Nothing is stated that can be checked: write equations, T = …, V = …, L = … or a Ξ.",)
     shown = _shown(verdict.findings)
