@@ -81,7 +81,7 @@ def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         ("spring_sign", "2"),
         ("unreadable", "2"),
     ]
-    assert rows[0]["files"] == "cid.txt dan.txt"
+    assert rows[0]["files"] == "cid.txt; dan.txt"
     assert rows[2]["sentence"] == "2 of 6 went wrong in step 3, potential energy."
     data = json.loads(run(capsys, "-e", "lecture-3b", str(answers), "--json")[1])
     assert data["counts"] == {"spring_sign": 2, "unreadable": 2}
@@ -125,10 +125,13 @@ def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[st
 @pytest.mark.slow
 def test_a_folder_gives_no_more_away_than_the_hint(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "cid.txt").write_text(SPRING)
-    for hint, given in (("0", False), ("1", False), ("2", True)):
+    for hint, given in (("0", False), ("1", False), ("2", True), ("3", True)):
         arguments = ("-e", "lecture-3b", str(tmp_path), "--hint", hint)
         for more in ((), ("--json",)):
-            assert ("spring_sign" in run(capsys, *arguments, *more)[1].replace("spring sign", "spring_sign")) is given
+            said = run(capsys, *arguments, *more)[1].replace("spring sign", "spring_sign")
+            assert ("spring_sign" in said) is (hint == "3")
+            assert hint != "2" or "There is a wrong sign in the potential energy of spring 'k'" in said
+            assert ("spring 'k'" in said) is given
 
 
 def test_what_can_be_read_is_never_called_unreadable(

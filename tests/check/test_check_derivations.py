@@ -48,7 +48,7 @@ def test_the_first_wrong_line_is_named_and_what_follows_is_said_to_follow() -> N
 def test_a_second_mistake_does_not_follow() -> None:
     wrong = HAND.replace("V = k*x2r^2/2", "V = k*x2r^2").replace("Xi_x1 = 0", "Xi_x1 = -F")
     verdict = derived("lecture-3b").check(wrong)
-    assert {m.name for m in verdict.mistakes} == {"spring_half_forgotten", "torque_on_parent"}
+    assert {m.name for m in verdict.mistakes} == {"spring_half_forgotten", "counted_without_work"}
     assert not any(f.follows for f in verdict.findings if f.line.kind in ("V", "Xi"))
 
 

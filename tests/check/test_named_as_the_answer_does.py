@@ -40,7 +40,7 @@ T = "T = 1/2 m (r'^2 + r^2 psi'^2) + 1/2 J psi'^2\n"
     [
         ("Q_r", "Q_psi", "Torque 'motor' is counted in Q_r in place of Q_psi."),
         ("Xi_r", "Xi_psi", "Torque 'motor' is counted in Xi_r in place of Xi_psi."),
-        ("Q_1", "Q_2", "Torque 'motor' is counted in Xi_1 in place of Xi_2."),
+        ("Q_1", "Q_2", "Torque 'motor' is counted in the Ξ of r in place of the Ξ of psi."),
     ],
 )
 def test_forces_have_the_names_of_the_answer(radial: str, turning: str, told: str) -> None:
@@ -95,3 +95,13 @@ def test_no_height_is_blamed_of_a_weight_that_is_missing() -> None:
     verdict = derrick().check(energies.format(""))
     assert str(verdict.mistakes[0].what) == "The weight of particle 'load' is missing in V."
     assert "height of particle" not in verdict.to_text()
+
+
+def test_a_coordinate_has_one_letter_on_a_page() -> None:
+    """The titles of lines, the equations and the mistakes call it the same, also in a class."""
+    answer = f"{T}Xi_1 = M - b r'\nXi_2 = -c psi'"
+    page = dial().check(answer).to_text()
+    assert "(Ξ of ψ)" in page and "the Ξ of ψ" in page and "psi" not in page and "Ξ₁" not in page and "Xi" not in page
+    found = dial().check_class({"ann": answer})
+    told = "".join(c.sentence for c in found.statistics) + "".join(found.rows[0].comment)
+    assert "the Ξ of psi" in told and "Xi" not in told

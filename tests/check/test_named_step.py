@@ -182,8 +182,8 @@ def test_titles_of_steps_in_sentences_keep_the_capitals_of_names() -> None:
         (
             "rolling-cylinder",
             "T = 1/2*m*x'^2 + 3*J*x'^2/R^2",
-            "Is the moment of inertia about the centre of mass? This belongs to step 2, kinetic co-energy; it concerns "
-            "the cylinder.",
+            "has a wrong factor. Compare the units and the numbers of this term with those of its neighbours. This "
+            "belongs to step 2, kinetic co-energy; it concerns the cylinder.",
         ),
     ],
 )

@@ -65,7 +65,7 @@ def test_a_wrong_element_of_the_mass_matrix_in_solved_rows() -> None:
     wrong = M.copy()
     wrong[0, 0] = p["M"]
     kind, element, _ = check_solved(wrong.LUsolve(h))
-    assert kind == "child_mass_forgotten" and element == "rigid body 'pole'"
+    assert kind == "carried_mass_forgotten" and element == "rigid body 'pole'"
 
 
 @pytest.mark.slow
@@ -206,7 +206,7 @@ def test_a_force_that_stands_in_both_equations_is_in_neither_in_place_of_the_oth
     rows = "m*(u''+w'')/4 - J*(w''-u'')/d^2 + k*u = {} + n*tau/r\nm*(u''+w'')/4 + J*(w''-u'')/d^2 + k*w = {}"
     name, words = only(bar(), rows.format("F*a/d", "F*(d-a)/d"))
     assert name == "force_wrong_equation"
-    assert words == "What force 'lift' adds to Xi_1 and what it adds to Xi_2 are exchanged."
+    assert words == "What force 'lift' adds to the Ξ of u and what it adds to the Ξ of w are exchanged."
     name, words = only(bar(), rows.format("F", "0"))
     assert "in place of" not in words
 

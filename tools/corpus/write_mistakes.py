@@ -62,13 +62,13 @@ def relative_speed(s: System) -> Iterator[Wrong]:
 
 
 @mistake
-def child_mass_forgotten(s: System) -> Iterator[Wrong]:
+def carried_mass_forgotten(s: System) -> Iterator[Wrong]:
     for b in s.bodies:
         if b.parent is not None:
             wrong = s.rows(T=s.T() - kinetic(b))
             for i, v in enumerate(s.v):
                 if any(x.diff(t).has(v) for x in b.parent):
-                    yield in_row(s, "child_mass_forgotten", i, wrong[i])
+                    yield in_row(s, "carried_mass_forgotten", i, wrong[i])
 
 
 @mistake
@@ -332,12 +332,12 @@ def input_everywhere(s: System) -> Iterator[Wrong]:
 
 
 @mistake
-def torque_on_parent(s: System) -> Iterator[Wrong]:
+def counted_without_work(s: System) -> Iterator[Wrong]:
     for p in s.inputs:
         if p.parent is not None and p.rate.diff(s.v[p.parent]) == 0:
             Xi = s.Xi()
             Xi[p.parent] -= p.f
-            yield in_Xi(s, "torque_on_parent", Xi)
+            yield in_Xi(s, "counted_without_work", Xi)
 
 
 @mistake

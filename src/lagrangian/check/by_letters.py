@@ -6,7 +6,8 @@ Of two of one kind it says: one of the springs 'left' and 'right', and not one o
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -14,7 +15,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.model import Model
 from lagrangian.model.elements.raw import Kinetic
-from lagrangian.page.formula import Item, Left, Text, Verbatim, text
+from lagrangian.page.formula import Item, Left, Table, Text, Verbatim, text
 
 MOST = 6
 """The most operations of a value by which an element is called."""
@@ -25,6 +26,8 @@ _SEVERAL = re.compile(
     r"\b(?P<one>[Oo]ne of )(?P<kind>[a-z]{1,20}(?: body)?) (?P<a>'[^']{1,60}') and (?P=kind) (?P<b>'[^']{1,60}')"
 )
 """Two elements of one kind, of which one is told."""
+_OF_LINES = re.compile(r"(?<=[Ξξ\u0307] of )([^\W\d]\w*+)")
+"""The coordinate in the title of a line: Ξ of x, ∂L/∂ξ̇ of x."""
 VALUES = ("value", "b", "k")
 """What holds the value of a force, a damper and a spring."""
 
@@ -36,7 +39,29 @@ def called_by_letters(items: Iterable[Item], model: Model) -> tuple[Item, ...]:
     named = {title: f"the {e.name}" for title, e in energies.items() if _is_named(e)}
     titles = "|".join(rf"\b{re.escape(x)}(?![\w'])" for x in (*table, *named))
     form = re.compile(rf"(?P<of>\b(?:kinetic )?energy of )?(?P<title>{titles or '(?!)'})", re.IGNORECASE)
-    return tuple(_put(x, form, table, named) if isinstance(x, Text) else x for x in items)
+    coordinates = {c.name: c.symbol for c in model.coordinates}
+
+    def put(item: Item) -> Item:
+        if isinstance(item, Table):
+            rows = tuple(
+                tuple(_of_coordinates(x, coordinates) if isinstance(x, Text) else x for x in r) for r in item.rows
+            )
+            return replace(item, rows=rows)
+        return _of_coordinates(_put(item, form, table, named), coordinates) if isinstance(item, Text) else item
+
+    return tuple(map(put, items))
+
+
+def _of_coordinates(item: Text, symbols: Mapping[str, sp.Expr]) -> Text:
+    """A text in which the coordinate of a line stands as a symbol: Ξ of θ₁, and not Ξ of theta1."""
+    parts: list[str | Verbatim | Left] = []
+    for part in item.parts:
+        if not isinstance(part, str):
+            parts.append(part)
+            continue
+        for k, x in enumerate(_OF_LINES.split(part)):
+            parts += [symbols.get(x, x)] if k % 2 else [x] if x else []
+    return text(*parts, brief=item.brief)
 
 
 def _is_named(element: Kinetic) -> bool:

@@ -224,7 +224,8 @@ def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigi
     found: dict[TermOrigin, None] = {}
     if index is None:
         for element in truth.model.elements:
-            for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
+            lost = element.dissipation(truth.model) or sp.S.Zero
+            for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3), (lost, 6)):
                 if energy != 0 and _adds_to(truth, truth.expand(energy), term):
                     found[TermOrigin(element.title, step)] = None
         return tuple(found)

@@ -35,7 +35,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare, zero_everywhere
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.together import right_together
-from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
+from lagrangian.check.verdict import IS_MISSING, OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
 from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
@@ -198,7 +198,7 @@ def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
     if len(said) == comparison.rank:
         for i, c in enumerate(truth.model.coordinates):
             if i not in said:
-                notes.append(text("The equation of ", c.symbol, " is missing."))
+                notes.append(text("The equation of ", c.symbol, f"{IS_MISSING}."))
     return tuple(notes)
 
 
@@ -210,7 +210,7 @@ def _silent(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Text, ...]
     moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
     energies = (("T", Name("T*"), truth.T), ("V", Name("V"), truth.V))
     return tuple(
-        text("No line states ", name, " as a whole, so it was not judged.")
+        text(name, f"{IS_MISSING}: no line states it as a whole, so it was not judged.")
         for kind, name, energy in energies
         if kind not in kinds and truth.expand(energy).has(*moving)
     )

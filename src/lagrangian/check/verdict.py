@@ -11,7 +11,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.page.formula import Text
+from lagrangian.check.hints import MistakeKind, advised, hinted, kind_of
+from lagrangian.page.formula import Left, Text, text
 from lagrangian.page.plain import plain
 from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
@@ -35,6 +36,12 @@ class Status(StrEnum):
 
 _SQUARE = re.compile(r"(?:²|(?:\^|\*\*)[ ]?\{?[ ]?2[ ]?\}?)[ \t$&]*\Z")
 """How the left side of a statement ends that is a square."""
+IS_MISSING = " is missing"
+"""What a note says behind the name of what an incomplete answer lacks."""
+WOULD_BE_RIGHT = "would be right"
+"""What a note says that gives the remedy."""
+_IN_LINE = re.compile(r"In line (\d{1,6})\b")
+"""How words begin that speak of one line."""
 OWN_SLOPES = ("T-rate", "T-slope", "V-slope", "D-slope")
 """The kinds of lines that give derivatives of the answer's own T*, V and D that equations add up."""
 OWN_DERIVATIVES = ("T-p", *OWN_SLOPES)
@@ -141,7 +148,8 @@ class TermDifference(Brief):
 class Mistake(Brief):
     """A mistake that explains the answer: its name, what was done, why it is wrong, and where.
 
-    ``brief`` says what kind of thing is wrong without the term itself, for a hint.
+    ``brief`` says what kind of thing is wrong without the term itself, for a hint. ``body`` is the body whose weight
+    is wrong, where the element is gravity.
     """
 
     name: str
@@ -151,19 +159,41 @@ class Mistake(Brief):
     element: str | None = None
     coordinate: str | None = None
     brief: Text | None = None
+    body: str | None = None
+
+    @property
+    def kind(self) -> MistakeKind:
+        """What kind of mistake it is."""
+        return kind_of(self.name)
+
+    @property
+    def concerns(self) -> str | None:
+        """The element, or the body on which gravity acts."""
+        return self.body or self.element
+
+    def hinted(self, coordinate: Left | None = None) -> Text:
+        """The mistake by its kind and place, without its term; ``coordinate`` is how its coordinate is written."""
+        return hinted(self.kind, self.step, self.concerns, coordinate or self.coordinate, self.brief)
+
+    @property
+    def advice(self) -> str:
+        """What to look at, by the kind and the step alone."""
+        return advised(self.kind, self.step)
 
     def to_dict(self, hint: int = 3) -> dict[str, Any]:
-        """Return plain data; below hint level 3 without what was done."""
+        """Return plain data; below hint level 3 the kind and the place alone."""
+        told = hint >= 3
         data: dict[str, Any] = {
-            "name": self.name,
+            "name": self.name if told else self.kind.value,
+            "kind": self.kind.value,
             "what": str(self.what),
-            "why": str(self.why),
+            "why": str(self.why) if told else self.advice,
             "step": self.step,
-            "element": self.element,
+            "element": self.concerns,
             "coordinate": self.coordinate,
-            "brief": str(self.brief) if self.brief is not None else None,
+            "brief": str(self.hinted()),
         }
-        return data if hint >= 3 else {k: v for k, v in data.items() if k != "what"}
+        return data if told else {k: v for k, v in data.items() if k != "what"}
 
 
 @dataclass(frozen=True)
@@ -183,6 +213,11 @@ class Finding(Brief):
     """The elements that add to the right equation, for a wrong one."""
     clash: str = ""
     """The line that it does not fit, where nothing says which of the two is right."""
+
+    @property
+    def kinds(self) -> list[str]:
+        """In which ways its terms differ, each once."""
+        return list(dict.fromkeys(d.kind for d in self.differences))
 
     @property
     def is_open(self) -> bool:
@@ -213,6 +248,7 @@ class Finding(Brief):
         if hint == 2:
             origins = [o for d in self.differences for o in d.origins]
             data |= {"elements": sorted({o.element for o in origins}), "steps": sorted({o.step for o in origins})}
+            data["kinds"] = self.kinds
         return data
 
 
@@ -255,8 +291,48 @@ class Verdict:
 
     @property
     def told(self) -> tuple[Text, ...]:
-        """The notes that the hint level allows: below 3, none of a wrong answer with a formula beyond ±a name."""
-        return self.notes if self.right or self.hint >= 3 else tuple(filter(_names_only, self.notes))
+        """The notes that the hint level allows: below 3, none of a wrong answer that says with what it would be right,
+        or with a formula beyond ±a name."""
+        if self.right or self.hint >= 3:
+            return self.notes
+        return tuple(n for n in self.notes if _names_only(n) and WOULD_BE_RIGHT not in str(n))
+
+    @property
+    def missing(self) -> tuple[Text, ...]:
+        """The names of what an incomplete answer lacks, where they are known."""
+        found: list[Text] = []
+        for *first, last in (note.parts for note in self.notes if self.status is Status.INCOMPLETE):
+            if isinstance(last, str) and IS_MISSING in last:
+                parts = [x for x in (*first, last.partition(IS_MISSING)[0]) if x != ""]
+                named = [
+                    str(x).replace("The ", "the ", 1) if k == 0 and isinstance(x, str) else x
+                    for k, x in enumerate(parts)
+                ]
+                found.append(text(*named))
+        return tuple(found)
+
+    def concerned(self, mistake: Mistake) -> list[str]:
+        """The element of a mistake, or those from which differences come, in its equation and its ledger, less those
+        of other mistakes.
+
+        L and the left-hand sides hold what comes from T* and V, never what comes from Ξ.
+        """
+        if mistake.concerns:
+            return [mistake.concerns]
+        ledgers = {0: (2, 3, 6), 1: (2, 3, 6), 4: (2, 3), 5: (2, 3)}.get(mistake.step, (mistake.step,))
+        others = {(m.element, m.step) for m in self.mistakes if m is not mistake and m.element}
+        found: list[tuple[str, int]] = []
+        line = _IN_LINE.match(str(mistake.what))
+        for f in self.findings:
+            if line is not None and f.line.number != int(line[1]):
+                continue
+            elsewhere = f.line.kind == "equation" and mistake.coordinate is not None
+            if f.follows or (elsewhere and f.coordinate != mistake.coordinate):
+                continue
+            origins = [o for d in f.differences for o in d.origins if o.step in ledgers]
+            found += [(o.element, o.step) for o in origins]
+        own = [x for x in found if x not in others] or found
+        return list(dict.fromkeys(element for element, _ in own))[:3]
 
     @property
     def right_lines(self) -> int:
@@ -293,7 +369,7 @@ class Verdict:
             data["combination"] = [[plain(x) for x in row] for row in rows] if rows is not None else None
         if self.hint >= 2:
             data["sure"] = self.sure
-            data["mistakes"] = [m.to_dict(self.hint) for m in self.mistakes]
+            data["mistakes"] = [m.to_dict(self.hint) | {"elements": self.concerned(m)} for m in self.mistakes]
             data["alternatives"] = [m.to_dict() for m in self.alternatives] if self.hint >= 3 else []
         return data
 

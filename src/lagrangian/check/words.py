@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -12,7 +11,7 @@ from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
 from lagrangian.model import Model
-from lagrangian.page.formula import Item, Left, Table, Text, text
+from lagrangian.page.formula import Item, Left, Table, Text, Verbatim, text
 from lagrangian.page.report import Part, Report
 
 STEPS = {
@@ -33,8 +32,6 @@ def step_title(step: int) -> str:
     return title if title.startswith("Lagrang") else title[:1].lower() + title[1:]
 
 
-_IN_LINE = re.compile(r"In line (\d{1,6})\b")
-"""How words begin that speak of one line."""
 MOST_SAID_FIRST = 2
 """The most terms that are named where it is said that only this line is wrong."""
 
@@ -51,7 +48,7 @@ def report(verdict: Verdict, model: Model) -> Report:
     if verdict.hint >= 1 and verdict.findings:
         parts.append(Part(text("Line by line"), (_lines(verdict, model),)))
     if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
-        parts.append(Part(text("What went wrong"), tuple(_why(verdict))))
+        parts.append(Part(text("What went wrong"), tuple(_why(verdict, model))))
     if verdict.hint >= 3 and (found := tuple(_terms(verdict, model))):
         parts.append(Part(text("Term by term"), found))
     parts = [replace(part, items=called_by_letters(part.items, model)) for part in parts]
@@ -89,7 +86,7 @@ def _numbered(lines: Sequence[int]) -> str:
     return f"line{'s' * (len(lines) > 1)} {listed([*map(str, lines)])}" if len(lines) <= MOST_SAID_ABOVE else "lines"
 
 
-def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
+def _headline(verdict: Verdict) -> tuple[str | Verbatim | Left, ...]:
     if not verdict.findings:
         return ("Nothing is stated that can be checked: write equations, T = …, V = …, L = … or a Ξ.",)
     shown = _shown(verdict.findings)
@@ -107,7 +104,11 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
                 "The motion is right. These are not Lagrange's equations one by one, but they say the same together.",
             )
         case Status.INCOMPLETE:
-            return ("Right as far as it goes, but something is missing.",)
+            named = [
+                (", " if k else ": ", *lacks.parts) for k, lacks in enumerate(verdict.missing if verdict.hint else ())
+            ]
+            said = [x for words in named for x in words]
+            return ("Right as far as it goes, but something is missing", *said, ".")
         case Status.WRONG:
             if wrong == lines or verdict.hint == 0:
                 return ("Not right yet.",)
@@ -208,11 +209,12 @@ def _word(finding: Finding, roots: Sequence[str], where: str) -> str:
     return {Status.INCOMPLETE: "says nothing", Status.SAME_MOTION: "true"}.get(finding.status, "right")
 
 
-def _why(verdict: Verdict) -> Iterator[Item]:
+def _why(verdict: Verdict, model: Model) -> Iterator[Item]:
     """The mistakes or, if none was found, what is right in the wrong lines and where they differ.
 
     Below hint level 3 a mistake is described by its kind and place, never by its terms.
     """
+    coordinates: dict[str | None, Left] = {c.name: c.symbol for c in model.coordinates}
     first_words = () if verdict.sure else ("This would explain it, and may not be what you did: ",)
     if verdict.mistakes and not verdict.sure:
         yield from _places(verdict)
@@ -220,9 +222,10 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         begins = ("And: ",) if k else first_words
         if verdict.hint >= 3:
             yield text(*begins, *mistake.what.parts)
-        elif mistake.brief is not None:
-            yield text(*begins, *mistake.brief.parts)
-        yield text("To put it right: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
+            yield text("To put it right: ", *mistake.why.parts)
+        else:
+            yield text(*begins, *mistake.hinted(coordinates.get(mistake.coordinate)).parts)
+            yield text(mistake.advice)
         yield from (text(x) for x in _where(mistake, verdict))
     if verdict.mistakes:
         first = verdict.first_wrong
@@ -240,11 +243,23 @@ def _why(verdict: Verdict) -> Iterator[Item]:
     yield text(f"No mistake was found that explains all of it{where}.")
 
 
+_DIFFERENT = {
+    "missing": "something is missing",
+    "extra": "something does not belong there",
+    "sign": "a sign is not right",
+    "coefficient": "a factor or a power is not right",
+}
+"""What is told of terms that differ where their formulas are not."""
+
+
 def _places(verdict: Verdict) -> Iterator[Item]:
     """For every wrong line, what is right in it and where it differs."""
     for f in verdict.findings:
         if not f.status.right and not f.follows:
             yield from _right_and_differing(f)
+            kinds = [_DIFFERENT[kind] for kind in f.kinds if kind in _DIFFERENT]
+            if kinds and verdict.hint < 3:
+                yield text(f"In {f.line.title}, {listed(kinds)}.")
 
 
 def _repeats(mistake: Mistake, told: Mistake, row: bool) -> bool:
@@ -298,7 +313,7 @@ def _called(title: str) -> str:
 
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
-    elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
+    elements = verdict.concerned(mistake)
     if _is_of_balances(mistake, verdict):
         return (f"It concerns {listed([*map(_called, elements)])}.",) if elements else ()
     concerns = f"; it concerns {listed([*map(_called, elements)])}" if elements else ""
@@ -313,26 +328,6 @@ def _is_of_balances(mistake: Mistake, verdict: Verdict) -> bool:
         return kinds.isdisjoint(("T", "V", "L", "Xi", "D"))
     moved = mistake.name.endswith(SAID) and not mistake.name.startswith(OF_ENERGIES)
     return moved and kinds <= {"definition", "equation", "identity", "statement"}
-
-
-def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
-    """The elements from which differences come, in the equation and the ledger of a mistake, less those of other ones.
-
-    L and the left-hand sides hold what comes from T* and V, never what comes from Ξ.
-    """
-    ledgers = {0: (2, 3, 6), 1: (2, 3, 6), 4: (2, 3), 5: (2, 3)}.get(mistake.step, (mistake.step,))
-    others = {(m.element, m.step) for m in verdict.mistakes if m is not mistake and m.element}
-    found: list[str] = []
-    own = _IN_LINE.match(str(mistake.what))
-    for f in verdict.findings:
-        if own is not None and f.line.number != int(own[1]):
-            continue
-        elsewhere = f.line.kind == "equation" and mistake.coordinate is not None and f.coordinate != mistake.coordinate
-        if f.follows or elsewhere:
-            continue
-        origins = [o for d in f.differences for o in d.origins if o.step in ledgers]
-        found += [o.element for o in origins if (o.element, o.step) not in others]
-    return list(dict.fromkeys(found))[:3]
 
 
 def _differing(verdict: Verdict) -> bool:
@@ -374,7 +369,7 @@ def _source(d: TermDifference, verdict: Verdict) -> tuple[str | Left, ...]:
     steps = sorted({o.step for o in d.origins})
     verb = "It comes from" if d.kind != "extra" else "Such a term comes from"
     of = {o.element for o in d.origins}
-    concerned = ((m.step, [m.element] if m.element else _concerned(m, verdict)) for m in verdict.mistakes)
+    concerned = ((m.step, [m.element] if m.element else verdict.concerned(m)) for m in verdict.mistakes)
     told = {step for step, elements in concerned if of.intersection(elements)}
     if told and not told & set(steps):
         return (f". {verb} {origins}.",)

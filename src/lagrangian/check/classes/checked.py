@@ -21,6 +21,8 @@ from lagrangian.records import dataclass
 from lagrangian.viewed import cut
 from lagrangian.write.files import check_free, write_file
 
+FILES_APART = "; "
+"""What stands between the files in a cell: their names have blanks."""
 ENDINGS: dict[FeedbackFormat, str] = {"text": ".txt", "markdown": ".md", "html": ".html"}
 """The ending of a feedback file in every format."""
 
@@ -72,7 +74,14 @@ class CheckedClass:
     def to_csv(self) -> str:
         """Return the counts as CSV: kind, name, answers, share of all answers, sentence, files."""
         rows = [
-            [c.kind, c.name, str(c.count), f"{c.count / c.of:.3f}", c.sentence, " ".join(map(harmless, c.files))]
+            [
+                c.kind,
+                c.name,
+                str(c.count),
+                f"{c.count / c.of:.3f}",
+                c.sentence,
+                FILES_APART.join(map(harmless, c.files)),
+            ]
             for c in self.statistics
         ]
         return to_csv(["kind", "name", "answers", "share", "sentence", "files"], rows)
@@ -111,7 +120,9 @@ class CheckedClass:
             scored = [row.points for row in self.rows if row.points is not None]
             if scored:
                 mean = number(sum(scored) / len(scored))
-                lines.append(f"{mean} of {number(self.judging.scheme.total)} points on average")
+                without = len(self.rows) - len(scored)
+                left_out = f", without {without} that could not be read or judged" if without else ""
+                lines.append(f"{mean} of {number(self.judging.scheme.total)} points on average{left_out}")
         lines += [f"no answer of {s.full_name or s.identifier or s.email or s.number}" for s in self.absent]
         if self.roster is not None:
             fits = {row.file: len(self.roster.fitting(row.file)) for row in self.rows if row.student is None}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -62,22 +63,33 @@ def counted(rows: Sequence[ClassRow]) -> tuple[ClassCount, ...]:
 def _mistakes(rows: Sequence[ClassRow]) -> list[ClassCount]:
     """The counts of every mistake, by its name and its element."""
     groups: dict[tuple[str, str], list[str]] = {}
+    said: dict[tuple[str, str], str] = {}
     for row in rows:
         named = row.record["mistakes"] if row.hint >= 2 and row.status is Status.WRONG else []
-        keys = [(m["name"], _words(m)) for m in named] or [(x, f" {GENERAL.get(x, x)}") for x in row.mistakes]
-        for key in dict.fromkeys(keys):
+        which = "name" if row.hint >= 3 else "kind"
+        told = [(m[which], _words(m, row.hint)) for m in named] or [(x, f" {GENERAL.get(x, x)}") for x in row.mistakes]
+        keys = {(name, _WHERE.sub("", words)): words for name, words in reversed(told)}
+        for key, words in keys.items():
             groups.setdefault(key, []).append(row.file)
+            said.setdefault(key, words)
     found = [
-        ClassCount("mistake", name, len(files), len(rows), _said(len(files), len(rows), words), tuple(files))
-        for (name, words), files in groups.items()
+        ClassCount("mistake", key[0], len(files), len(rows), _said(len(files), len(rows), said[key]), tuple(files))
+        for key, files in groups.items()
     ]
     return sorted(found, key=lambda c: (-c.count, c.name, c.sentence))
 
 
-def _words(mistake: dict[str, Any]) -> str:
+_WHERE = re.compile(r" in (?:T\*|V|L)(?=[ .,:]|\Z)")
+"""In which energy a mistake was made, which is said only where one is stated: it is the same mistake without."""
+_REASON = "A possible reason: "
+
+
+def _words(mistake: dict[str, Any], hint: int) -> str:
     """What is said after "7 of 31": the mistake without the term, which differs from answer to answer, if it is known
     so."""
-    return f": {(mistake['brief'] or mistake['what']).rstrip('.')} (step {mistake['step']})"
+    what = mistake["what"].rpartition(_REASON)[2]
+    said = (mistake["brief"] or what) if hint >= 3 else mistake["hinted"]
+    return f": {said.rstrip('.')} (step {mistake['step']})"
 
 
 def _said(count: int, of: int, words: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.classes.marks import PartMark
@@ -17,6 +18,14 @@ from lagrangian.page.report import Part, Report
 def number(value: float) -> str:
     """Points in words: no more digits than needed."""
     return f"{round(value, 2):g}"
+
+
+def in_letters(said: Text) -> str:
+    """A sentence as plain text, in which a generalized force has the letter that it has everywhere else."""
+    return _FORCE.sub("Ξ", str(said))
+
+
+_FORCE = re.compile(r"\bXi(?![^\W_])")
 
 
 def feedback_report(
@@ -65,6 +74,8 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
     if not (demands and verdict.right):
         yield _headline(verdict)
     yield from demands
+    if verdict.status is Status.INCOMPLETE and verdict.hint and not verdict.missing:
+        yield from map(str, verdict.told)
     wrong = [f for f in verdict.findings if not f.status.right]
     if verdict.hint >= 1 and verdict.status is Status.WRONG:
         own = [f.line.title for f in wrong if not f.follows]
@@ -74,11 +85,13 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
             yield f"Only because of that: {listed(after)}."
     if verdict.hint >= 2:
         for m in verdict.mistakes:
-            place = f"step {m.step}, {step_title(m.step)}" + (f", {m.element}" if m.element else "")
+            place = f"step {m.step}, {step_title(m.step)}" + (
+                f", {listed(found)}" if (found := verdict.concerned(m)) else ""
+            )
             if verdict.hint >= 3:
-                yield f"{m.what} ({place})"
+                yield f"{in_letters(m.what)} ({place})"
             else:
-                yield f"{m.brief} ({place})" if m.brief is not None else f"Look at {place}."
+                yield f"{in_letters(m.hinted())} ({place})"
     if earned and verdict.hint >= 1:
         said = ", ".join(f"{m.title} {number(m.points)}/{number(m.of)}" for m in earned)
         yield f"Points: {said}."
@@ -89,6 +102,7 @@ def _headline(verdict: CheckedAnswer) -> str:
         case Status.WRONG:
             return "Not right yet."
         case Status.INCOMPLETE:
-            return "Right as far as it goes, but something is missing."
+            named = ", ".join(map(str, verdict.missing if verdict.hint else ()))
+            return f"Right as far as it goes, but something is missing{f': {named}' if named else ''}."
         case _:
             return f"{verdict.status.value[:1].upper()}{verdict.status.value[1:]}."

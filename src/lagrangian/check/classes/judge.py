@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
 
 from lagrangian.advice import Advice, Argument
-from lagrangian.check.classes.feedback import comment, feedback_report, words_report
+from lagrangian.check.classes.feedback import comment, feedback_report, in_letters, words_report
 from lagrangian.check.classes.marks import lacking, marks
 from lagrangian.check.classes.scheme import MarkingScheme
 from lagrangian.check.reading import decode_answer, parse_answer
@@ -16,6 +16,7 @@ from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError, ParseError
+from lagrangian.model import Model
 from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
@@ -76,11 +77,11 @@ class Judge:
             read = True
             return self._told(file, check_answer(self.derivation, answer))
         except Error as error:
-            return self._untold(file, error, read=read)
+            return untold(file, _in_a_line(error), read=read)
         except Exception as fault:  # a fault of ours in one answer must not cost the others
             _log.warning("the answer '%s' could not be judged", file, exc_info=True)
             words = f"a fault of this program ({type(fault).__name__}); please report it"
-            return self._untold(file, Error(words), read=True)
+            return untold(file, _in_a_line(Error(words)), read=True)
 
     def _told(self, file: str, verdict: CheckedAnswer) -> Record:
         judging, scheme = self.judging, self.judging.scheme
@@ -105,13 +106,6 @@ class Judge:
             "feedback": write_report(report, judging.feedback) if judging.feedback else None,
         }
 
-    def _untold(self, file: str, error: Error, *, read: bool) -> Record:
-        record = untold(file, _in_a_line(error), read=read)
-        if self.judging.feedback:
-            report = words_report(self.derivation.model, record["comment"])
-            record["feedback"] = write_report(report, self.judging.feedback)
-        return record
-
 
 def _in_a_line(error: Error) -> str:
     """What is wrong, where and what would be right, of every place, for a cell of a table: no code and no caret."""
@@ -124,8 +118,15 @@ def _of_one_place(error: Error) -> str:
     if place is not None and place.line is not None:
         column = "" if place.column is None else f", column {place.column}"
         said.insert(0, f"line {place.line}{column}")
-    fix = f" {error.fix[0].upper()}{error.fix[1:].rstrip('.')}." if error.fix else ""
-    return f"{': '.join(said)}.{fix}"
+    fix = f" {error.fix[0].upper()}{error.fix[1:].rstrip('.')}" if error.fix else ""
+    return f"{': '.join(said)}.{fix}{'' if fix.endswith(('?', '!')) or not fix else '.'}"
+
+
+def with_page(record: Record, model: Model, judging: Judging) -> Record:
+    """The record with a page of feedback, also where there is no verdict and its comment is all that can be told."""
+    if judging.feedback is None or record["feedback"] is not None:
+        return record
+    return {**record, "feedback": write_report(words_report(model, record["comment"]), judging.feedback)}
 
 
 def untold(file: str, trouble: str, *, read: bool) -> Record:
@@ -166,8 +167,10 @@ def _line(finding: Finding) -> dict[str, Any]:
 def _mistake(mistake: Mistake) -> dict[str, Any]:
     return {
         "name": mistake.name,
-        "what": str(mistake.what),
-        "brief": str(mistake.brief) if mistake.brief is not None else "",
+        "kind": mistake.kind.value,
+        "what": in_letters(mistake.what),
+        "brief": in_letters(mistake.brief) if mistake.brief is not None else "",
+        "hinted": in_letters(mistake.hinted()),
         "step": mistake.step,
-        "element": mistake.element,
+        "element": mistake.concerns,
     }

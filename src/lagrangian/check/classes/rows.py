@@ -87,7 +87,8 @@ class ClassRow:
 
     @property
     def mistakes(self) -> tuple[str, ...]:
-        """The names of the mistakes; "unexplained" if it is wrong and none was found; "wrong" below hint level 2."""
+        """The names of the mistakes, at hint level 2 their kinds; "unexplained" if it is wrong and none was found;
+        "wrong" below level 2."""
         if self.status is None:
             return ("unjudged",) if self.read else ("unreadable",)
         if self.status is Status.INCOMPLETE:
@@ -96,7 +97,8 @@ class ClassRow:
             return ("other_coordinates",) if self.record["moved"] else ()
         if self.hint < 2:
             return ("wrong",)
-        return tuple(m["name"] for m in self.record["mistakes"]) or ("unexplained",)
+        which = "name" if self.hint >= 3 else "kind"
+        return tuple(dict.fromkeys(m[which] for m in self.record["mistakes"])) or ("unexplained",)
 
     @property
     def detail(self) -> str:

@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from lagrangian.check.classes.checked import CheckedClass
-from lagrangian.check.classes.judge import Judge, Judging, Record, untold
+from lagrangian.check.classes.judge import Judge, Judging, Record, untold, with_page
 from lagrangian.check.classes.processes import Task, judged_by_processes, process_count
 from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.classes.scheme import MarkingScheme
 from lagrangian.check.classes.store import VerdictStore, fingerprint, key_of
-from lagrangian.check.classes.students import MOODLE_FILE, Roster, read_roster
+from lagrangian.check.classes.students import MOODLE_FILE, Student, read_roster, student_of
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
 from lagrangian.model import Model
@@ -116,15 +116,16 @@ def check_class(
     _check_coordinates(judging.scheme, model)
     listed = read_roster(Path(roster)) if roster is not None else None
     files = given_answers(answers)
+    students = [listed.find(file.name) if listed else None for file in files]
+    _check_once([file.name for file in files], students)
     _log.info("checking %d answers", len(files))
     run = _ClassRun(model, derivation, judging, files, processes, progress)
     with VerdictStore(Path(store)) if store is not None else contextlib.nullcontext() as kept:
         records = run.records(kept)
     rows = tuple(
-        ClassRow(file.name, record, judging.scheme.total, judging.hint, listed.find(file.name) if listed else None)
-        for file, record in zip(files, records, strict=True)
+        ClassRow(file.name, record, judging.scheme.total, judging.hint, student)
+        for file, record, student in zip(files, records, students, strict=True)
     )
-    _check_once(rows, listed)
     damaged = kept.damaged if kept is not None else 0
     return CheckedClass(name=model.name, rows=rows, judging=judging, roster=listed, reused=run.reused, damaged=damaged)
 
@@ -140,17 +141,20 @@ def _check_coordinates(scheme: MarkingScheme, model: Model) -> None:
             )
 
 
-def _check_once(rows: Sequence[ClassRow], roster: Roster | None) -> None:
-    """Raise `Error` if two answers belong to one student of the list."""
-    seen: dict[int | None, str] = {}
-    for row in rows if roster is not None else ():
-        if row.student is None:
-            continue
-        if row.student.row in seen:
-            who = row.student.full_name or row.student.identifier or row.student.email
-            what = f"both '{seen[row.student.row]}' and '{row.file}' are answers of {who}"
-            raise Error(what, fix="keep one of them in the folder", code="E404")
-        seen[row.student.row] = row.file
+def _check_once(files: Sequence[str], students: Sequence[Student | None]) -> None:
+    """Raise `Error` if two answers belong to one student of the list, or to one participant by their names."""
+    seen: dict[tuple[str, object], str] = {}
+    for file, student in zip(files, students, strict=True):
+        of_file = student_of(file)
+        keys: list[tuple[str, object]] = [("participant", of_file.identifier)] if of_file.identifier else []
+        keys += [("row", student.row)] if student is not None else []
+        for key in keys:
+            if key in seen:
+                one = student or of_file
+                who = one.full_name or one.identifier or one.email
+                what = f"both '{seen[key]}' and '{file}' are answers of {who}"
+                raise Error(what, fix="keep one of them in the folder", code="E404")
+            seen[key] = file
 
 
 class _ClassRun:
@@ -193,7 +197,8 @@ class _ClassRun:
             if store is not None and final:
                 store.put(keys[k], record)
             self._tell(len(found))
-        return [{**found[k], "file": file.name} for k, file in enumerate(self.files)]
+        records = [{**found[k], "file": file.name} for k, file in enumerate(self.files)]
+        return [with_page(record, self.model, self.judging) for record in records]
 
     def _subject(self) -> str:
         """What a stored verdict depends on besides the answer."""
@@ -204,11 +209,14 @@ class _ClassRun:
             return
         count = process_count(self.processes, len(tasks))
         if count > 1 and (model := self._written()) is not None:
-            yield from judged_by_processes(model, self.judging, tasks, count)
+            yield from judged_by_processes(model, self.judging, tasks, count, self._judge)
             return
-        judge = Judge(self.derivation or derive_in_form(self.model), self.judging)
+        judge = self._judge()
         for k, file, content in tasks:
             yield k, judge.judge(file, content), True
+
+    def _judge(self) -> Judge:
+        return Judge(self.derivation or derive_in_form(self.model), self.judging)
 
     def _written(self) -> str | None:
         """The text of the model for other processes; None if it cannot be written and one process was not excluded."""

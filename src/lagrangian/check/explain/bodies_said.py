@@ -52,7 +52,7 @@ WHOLE = "translation_forgotten"
 NOT_OF_BODIES = (
     "half_forgotten",
     "mass_swapped",
-    "child_mass_forgotten",
+    "carried_mass_forgotten",
     WHOLE,
     "rotation_forgotten",
 )

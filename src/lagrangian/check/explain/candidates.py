@@ -65,7 +65,7 @@ class Wrong:
         first, *more = v.what.parts
         begins = isinstance(first, str) and title is not None and first.startswith(title)  # a title begins the sentence
         what = text(str(first)[:1].upper() + str(first)[1:], *more) if begins else v.what
-        return Mistake(self.name, what, v.why or self.module.WHY, self.step, title, name)
+        return Mistake(self.name, what, v.why or self.module.WHY, self.step, title, name, body=v.body)
 
 
 class Effects:

@@ -76,7 +76,7 @@ def part_of(truth: Reference, possible: Possible) -> tuple[str, int] | None:
     """In which derivative of T*, and of which coordinate, a mistake was made if its words say so."""
     parts: Sequence[object] = ()
     if possible.change is not None:
-        parts = possible.change.site.brief
+        parts = possible.change.site.words
     elif possible.wrong is not None:
         parts = possible.wrong.variant.what.parts
     for part in parts:

@@ -1,4 +1,4 @@
-"""Calls a generalized force as the answer does: Ξ_r, or Q_psi, and not Ξ₁."""
+"""Calls a generalized force as the answer does, Q_psi, or as its line is called, the Ξ of ψ, and not Ξ₁."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from lagrangian.page.formula import Left, Name, Verbatim, text
 _NAMED = re.compile(r"[^\W\d_]_?[^\W\d_]\w{0,10}")
 """A name with letters behind its own: no number says of which coordinate it is."""
 
+_NUMBERED = re.compile(r"\\?(?:Xi|Ξ)_?\{?\d{1,3}\}?")
+"""The name of a force by a number alone."""
 _WORK = re.compile(r"(?:[δd∂]|delta)_?W")
 """A virtual work: it has forces on all coordinates."""
 
@@ -23,12 +25,8 @@ def with_forces_named(truth: Reference, lines: Sequence[AnsweredLine], verdict: 
     called: dict[str, tuple[str | Verbatim | Left, ...]] = {}
     for k, c in enumerate(truth.model.coordinates, 1):
         name = own.get(c.name, "")
-        if _WORK.match(name):
-            called[str(k)] = ("the Ξ of ", c.symbol)
-        elif _NAMED.fullmatch(name):
-            called[str(k)] = (Verbatim(name),)
-    if not called:
-        return verdict
+        of_one = _NAMED.fullmatch(name) and not _WORK.match(name) and not _NUMBERED.fullmatch(name)
+        called[str(k)] = (Verbatim(name),) if of_one else ("the Ξ of ", c.symbol)
     told, others = (tuple(_said(m, called) for m in x) for x in (verdict.mistakes, verdict.alternatives))
     return replace(verdict, mistakes=told, alternatives=others)
 

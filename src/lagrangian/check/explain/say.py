@@ -269,7 +269,7 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
         why = ANGLES
     coordinate = model.coordinates[site.coordinate].name if site.coordinate is not None else None
     element = site.element.title if site.element is not None else None
-    return Mistake(name, what, text(why), site.step, element, coordinate, brief)
+    return Mistake(name, what, text(why), site.step, element, coordinate, brief, site.body)
 
 
 def _has_no_unit(change: LocalChange) -> bool:

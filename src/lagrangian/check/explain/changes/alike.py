@@ -38,7 +38,7 @@ def bodies(
             moved = tuple(translations[b] for b in group)
             if moved != own and all(moved):
                 words = (f"the kinetic energies ½mv² of {names}",)
-                brief = (f"the kinetic energies of the translation of {names}",)
+                brief = (f"the kinetic energies of {names}",)
                 made |= {"words": words, "brief": brief, "members": moved}
                 yield Site(**made, step=2, T=plus(*moved), surcharge=0.1, sign_cost=0.9)
             own = tuple(weights[b][1] for b in group if b in weights)
@@ -97,7 +97,7 @@ def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[
             mixed = {m: c for m, c in energy.items() if sum(a in rates for a, _ in m) > 1}
             if 1 < len(mixed) < len(energy) and (what != "½mv²" or energy != whole):
                 words: Words = (f"the products of different rates in {what} of {b.title}",)
-                brief: Words = (f"the products of different rates in the kinetic energy of {b.title}",)
+                brief: Words = (f"the kinetic energy of {b.title}",)
                 yield Site(words=words, brief=brief, step=2, element=b, T=mixed, surcharge=0.2)
 
 
@@ -115,7 +115,7 @@ def carried(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum | None]
         T = difference(s.expand(b.mass) * mixed, sp.S.Zero)
         if T:
             point = b.at.parent.name or "the point before"
-            brief: Words = (f"the products of two velocities in the kinetic energy of {b.title}",)
+            brief: Words = (f"the kinetic energy of {b.title}",)
             words = f"the products, in ½mv² of {b.title}, of the velocity of {point} and the velocity relative to it"
             yield Site(words=(words,), brief=brief, step=2, element=b, T=T, surcharge=0.2)
 
@@ -132,7 +132,7 @@ def turned_by_time(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum 
             turned = put(bounded.diff(put(p, {f(angle): f(mark) for f in (sp.sin, sp.cos)}), mark), {mark: angle})
             if x := difference(turned * bounded.diff(given, time), sp.S.Zero):
                 words: Words = ("what the given motion in ", angle, " adds to ", Total(Partial(Name("T*"), v)))
-                brief: Words = (Total(Partial(Name("T*"), v)),)
+                brief: Words = ("the equation of ", s.q[i])
                 yield Site(words=words, brief=brief, step=5, coordinate=i, rows={i: x}, sign_cost=0.9)
 
 

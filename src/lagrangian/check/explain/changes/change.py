@@ -37,6 +37,8 @@ class Site:
     surcharge: float = 0.0
     single: bool = False
     whole: bool = False
+    body: str | None = None
+    """The body whose weight it is, where the element is gravity."""
     against: Words = ()
     """What cancels it in the right equations."""
     members: tuple[Sum, ...] = ()

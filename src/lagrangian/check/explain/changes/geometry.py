@@ -383,4 +383,4 @@ class GeometryChanges:
 
 def _in(site: Site, what: str, step: int) -> Site:
     words: Words = (f"the {what} of {site.element.title}" if site.element is not None else what,)
-    return Site(words=words, brief=words, step=step, element=site.element)
+    return Site(words=words, brief=words, step=step, element=site.element, body=site.body)

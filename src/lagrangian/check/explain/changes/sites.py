@@ -168,20 +168,19 @@ class Sites:
     def _of_body(self, b: Any) -> Iterator[Site]:
         title = b.title
         T, J = self.translations[b], self.rotations.get(b, {})
+        brief: Words = (f"the kinetic energy of {title}",)
         if T:
             words = (f"the kinetic energy ½mv² of {title}" if J else f"the kinetic energy of {title}",)
-            brief = (f"the kinetic energy of the translation of {title}",) if J else words
             yield Site(words=words, brief=brief, step=2, element=b, T=T, sign_cost=0.9)
         if J:
             words = (f"the kinetic energy of the rotation of {title}",)
-            yield Site(words=words, brief=words, step=2, element=b, T=J, sign_cost=0.9)
+            yield Site(words=words, brief=brief, step=2, element=b, T=J, sign_cost=0.9)
         if T and J:
-            words = (f"the kinetic energy of {title}",)
-            yield Site(words=words, brief=words, step=2, element=b, T=self.kinetic[b], surcharge=0.1, sign_cost=0.9)
+            yield Site(words=brief, brief=brief, step=2, element=b, T=self.kinetic[b], surcharge=0.1, sign_cost=0.9)
         if b in self.weights:
             gravity, V = self.weights[b]
             words = (f"the weight of {title}",)
-            yield Site(words=words, brief=words, step=3, element=gravity, V=V)
+            yield Site(words=words, brief=words, step=3, element=gravity, V=V, body=title)
             if T or J:
                 words = (f"the kinetic energy and the weight of {title}",)
                 yield Site(
@@ -293,7 +292,7 @@ class Sites:
     def _entries(self) -> Iterator[Site]:
         """The two equal entries of a symmetric matrix of two coordinates: of ξ̈_j in equation i and of ξ̈_i in j."""
         s = self.of
-        for of, moving in (("accelerations", s.a), ("rates", s.v), ("coordinates", s.q)):
+        for moving in (s.a, s.v, s.q):
             atoms = [self.ring.atom(x) for x in moving]
             for i, j in combinations(range(self.n), 2):
                 found = {row: self._alone(row, atoms[by]) for row, by in ((i, j), (j, i))}
@@ -301,7 +300,7 @@ class Sites:
                     continue
                 words: Words = ("the terms with ", moving[j], " in the equation of ", s.q[i], " and with ", moving[i])
                 words = (*words, " in that of ", s.q[j])
-                brief: Words = (f"the coupling by {of} in the equations of ", s.q[i], " and ", s.q[j])
+                brief: Words = ("the equations of ", s.q[i], " and ", s.q[j])
                 of_terms = {self.element_of(row, m) for row, x in found.items() for m in x}
                 element = of_terms.pop() if len(of_terms) == 1 else None
                 yield Site(words=words, brief=brief, step=5, element=element, rows=found, surcharge=0.45)
@@ -343,7 +342,7 @@ class Sites:
                 ledgers = {e.ledger if (e := self.element_of(i, m)) is not None else None for m in x}
                 yield Site(
                     words=words,
-                    brief=("the terms of one motion in ", *brief),
+                    brief=("the terms of ", *brief),
                     step=6 if ledgers == {"Ξ"} else 5,
                     coordinate=i,
                     rows={i: x},
@@ -367,6 +366,7 @@ class Sites:
             parts, slope = self.momentum_rates(energy, i)
             extra = 0.0 if body is None else 0.15
             of: Words = () if body is None else (f" of {body.title}",)
+            adds: Words = ("what ", *((T,) if body is None else (body.title,)), " adds to the equation of ", q)
             step: dict[str, Any] = {
                 "step": 5,
                 "element": body,
@@ -376,7 +376,7 @@ class Sites:
             }
             if slope:
                 words: Words = (Partial(T, q), *of)
-                yield Site(words=words, brief=words, rows={i: slope}, **step)
+                yield Site(words=words, brief=adds, rows={i: slope}, **step)
             moved = plus(*[x for k, x in parts.items() if k != "a"])
             for k, x in parts.items():
                 if k in ("a", "t") or not x:
@@ -385,12 +385,12 @@ class Sites:
                 words = ("what ", rate, " adds to ", Total(Partial(T, v)), *of)
                 both = all(slope.get(m) == -c for m, c in x.items())
                 against: Words = (Partial(T, q), *of) if both else ()
-                yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: x}, against=against, **step)
+                yield Site(words=words, brief=adds, rows={i: x}, against=against, **step)
             if sum(bool(x) for k, x in parts.items() if k != "a") > 1:
                 words = ("what the changing coefficients add to ", Total(Partial(T, v)), *of)
-                yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: moved}, **step)
+                yield Site(words=words, brief=adds, rows={i: moved}, **step)
             if slope and moved:
                 both = self.ring.fold(plus(slope, moved))
                 if both:
                     words = ("the velocity terms", *of, " in the equation of ", q)
-                    yield Site(words=words, brief=words, rows={i: both}, **step)
+                    yield Site(words=words, brief=adds, rows={i: both}, **step)

@@ -52,6 +52,8 @@ class Variant:
     doubt: int = 0
     step: int | None = None
     why: Text | None = None
+    body: str | None = None
+    """The body whose weight it is, where the element is gravity."""
 
 
 class Misconception(Protocol):

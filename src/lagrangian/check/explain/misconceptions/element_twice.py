@@ -18,7 +18,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what=text(f"{spring.title[:1].upper() + spring.title[1:]} is counted twice."), V=V, element=spring
         )
     for gravity, body, V in s.weights():
-        yield Variant(what=text(f"The weight of {body.title} is counted twice."), V=V, element=gravity)
+        yield Variant(what=text(f"The weight of {body.title} is counted twice."), V=V, element=gravity, body=body.title)
     for element in s.acting:
         what = text(f"{element.title[:1].upper() + element.title[1:]} is counted twice.")
         yield Variant(what=what, Xi=s.shares(element), element=element)

@@ -13,7 +13,7 @@ from lagrangian.page.formula import text
 STEP = 3
 TWICE, HALF = "twice", "half"
 """How far a height is taken."""
-WHY = text("The height is that of the centre of mass: measure how far from its parent that is, along the body.")
+WHY = text("The height is that of the centre of mass: measure how far from its hinge that is, along the body.")
 WHY_FACTOR = text("How far does the body rise when the coordinate grows by 1? An angle counts with its radius or arm.")
 """For a height that lacks its arm."""
 
@@ -30,10 +30,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 continue  # on an incline there is no arm: then the weight counts twice or half
             doubt = 0 if any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own))) else 1
             if s.moves(own):  # a middle that has a letter of its own is not taken for an end
-                yield Variant(what=what, V=times * mg * own, element=gravity, doubt=doubt)
+                yield Variant(what=what, V=times * mg * own, element=gravity, body=body.title, doubt=doubt)
             if mg * own != V:
-                yield Variant(what=what, V=times * V, element=gravity, doubt=doubt)
+                yield Variant(what=what, V=times * V, element=gravity, body=body.title, doubt=doubt)
         for p in letters(own):
             if bounded.diff(own, p) != 0 and own.subs(p, 0) == 0 and not bounded.diff(own, p).has(p):
                 what = text(f"The weight of {body.title} comes without its arm ", p, ".")
-                yield Variant(what=what, V=mg * (bounded.diff(own, p) - own), element=gravity, why=WHY_FACTOR)
+                yield Variant(
+                    what=what, V=mg * (bounded.diff(own, p) - own), element=gravity, body=body.title, why=WHY_FACTOR
+                )

@@ -20,4 +20,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         total = sp.Add(*[V for _, _, V in weights])
         yield Variant(what=text("Gravity is missing in ", Name("V"), "."), V=-total, element=weights[0][0])
     for gravity, body, V in weights:
-        yield Variant(what=text(f"The weight of {body.title} is missing in ", Name("V"), "."), V=-V, element=gravity)
+        yield Variant(
+            what=text(f"The weight of {body.title} is missing in ", Name("V"), "."),
+            V=-V,
+            element=gravity,
+            body=body.title,
+        )

@@ -25,4 +25,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         )
     for gravity, body, V in weights:
         what = text(f"The weight of {body.title} has the wrong sign in ", Name("V"), ": lower is less, not more.")
-        yield Variant(what=what, V=-2 * V, element=gravity)
+        yield Variant(what=what, V=-2 * V, element=gravity, body=body.title)

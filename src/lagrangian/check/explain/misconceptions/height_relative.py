@@ -20,12 +20,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         n = [s.expand(x) for x in gravity.direction]
         carried = sp.Add(*[-a * p for a, p in zip(n, s.parent(body), strict=True)])
         mg = s.expand(body.mass) * s.expand(gravity.g)
-        what = text(f"The height of {body.title} is measured from its parent, which moves itself.")
+        what = text(f"The height of {body.title} is measured from what carries it, which moves itself.")
         if s.moves(carried) and bounded.expand(V - mg * carried) != 0:
-            yield Variant(what=what, V=-mg * carried, element=gravity)
+            yield Variant(what=what, V=-mg * carried, element=gravity, body=body.title)
         pieces = [x for x in sp.Add.make_args(bounded.expand(V)) if s.moves(x)]
         if len(pieces) > 1:
             for piece in pieces:
                 if bounded.expand(piece - mg * carried) != 0:
                     what = text(f"Of the height of {body.title} the part with ", piece / mg, " is missing.")
-                    yield Variant(what=what, V=-piece, element=gravity)
+                    yield Variant(what=what, V=-piece, element=gravity, body=body.title)

@@ -14,8 +14,8 @@ from lagrangian.page.formula import text
 
 STEP = 2
 WHY = text(
-    "Everything that turns the body counts: a relative angle is measured from its parent, and a rope or a gear turns a "
-    "wheel from both of its sides."
+    "Everything that turns the body counts: a relative angle is measured from what carries it, and a rope or a gear "
+    "turns a wheel from both of its sides."
 )
 
 

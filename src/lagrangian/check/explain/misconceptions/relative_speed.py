@@ -38,7 +38,7 @@ def _alone(s: Ingredients, body: Any) -> Iterator[Variant]:
         own = tuple(put(x, gone) for x in velocity)
         change = half_square(s.expand(body.mass), own) - s.translation(body)
         parents = all(bounded.expand(a - b) == 0 for a, b in zip(own, relative, strict=True))
-        tail = "the speed relative to its parent instead of the total one" if parents else "it depends on "
+        tail = "the speed relative to what carries it instead of the total one" if parents else "it depends on "
         others = [] if parents else _listed([v for v in rates if v not in keep])
         what = text(
             f"The velocity of {body.title} in ",
@@ -61,7 +61,7 @@ def _carried(s: Ingredients, body: Any) -> Iterator[Variant]:
     own, parent = s.velocity(body), tuple(s.rate(x) for x in s.parent(body))
     carrying = {v for v in s.v if any(x.has(v) for x in parent)}
     doubt = 1 if any(x.has(*carrying) for x in _relative(s, body)) and carrying else 0  # the parent turns, too
-    others = [(parent, "its parent", doubt)]
+    others = [(parent, "what carries it", doubt)]
     others += [(s.velocity(b), b.title, 2) for b in s.bodies if b is not body]
     for other, words, doubt in others:
         if any(x != 0 for x in other) and other != own:

@@ -23,12 +23,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
     Components of velocities are left to the local changes: in v², their sines and cosines are those of other angles.
     """
-    pieces = [(gravity, V, f"the weight of {body.title}") for gravity, body, V in s.weights()]
-    pieces += [(spring, V, f"the energy of {spring.title}") for spring, _, V in s.springs()]
-    for element, V, words in pieces:
+    pieces = [(gravity, V, f"the weight of {body.title}", body.title) for gravity, body, V in s.weights()]
+    pieces += [(spring, V, f"the energy of {spring.title}", None) for spring, _, V in s.springs()]
+    for element, V, words, body in pieces:
+        what = text(f"Sine and cosine are exchanged in {words}.")
         for other in _swapped(V):
-            yield Variant(what=text(f"Sine and cosine are exchanged in {words}."), V=other - V, element=element)
-    turned = [element for element, V, _ in pieces if V.has(sp.sin, sp.cos)]
+            yield Variant(what=what, V=other - V, element=element, body=body)
+    turned = [element for element, V, *_ in pieces if V.has(sp.sin, sp.cos)]
     weights = all(isinstance(x, Gravity) for x in turned)
     where = "the weights" if weights else "the energies of the springs" if _are_springs(turned) else Name("V")
     for other in _swapped(s.V) if len(turned) != 1 else ():
@@ -56,7 +57,7 @@ def _in_components(s: Ingredients) -> Iterator[Variant]:
         turned = {i: _swapped(x)[0] - x for i, x in shares.items() if _swapped(x)}
         if len(turned) > 1:
             what = text(f"Sine and cosine are exchanged in the components of the weight of {body.title}.")
-            yield Variant(what=what, rows=turned, element=gravity, stated=frozenset(), doubt=1)
+            yield Variant(what=what, rows=turned, element=gravity, body=body.title, stated=frozenset(), doubt=1)
 
 
 def _in_rows(s: Ingredients) -> Iterator[Variant]:

@@ -13,7 +13,7 @@ from lagrangian.page.formula import text
 STEP = 3
 WHY = text(
     "The deflection is the change of the spring's length. If a coordinate is relative, the deflection of a spring "
-    "to the parent is just that coordinate; if both are absolute, it is their difference."
+    "to what carries the body is just that coordinate; if both are absolute, it is their difference."
 )
 
 

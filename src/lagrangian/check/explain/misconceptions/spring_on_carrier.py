@@ -1,4 +1,4 @@
-"""A spring on a relative coordinate is also counted in the equation of the parent."""
+"""A spring on a relative coordinate is also counted in the equation of what carries it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from lagrangian.page.formula import text
 
 STEP = 5
 WHY = text(
-    "V contains only the relative coordinate, so its derivative by the parent's coordinate is zero: moving the "
-    "parent carries both ends of the spring along and does not stretch it."
+    "V contains only the relative coordinate, so its derivative by this one is zero: what carries both ends of the "
+    "spring moves them along and does not stretch it."
 )
 
 

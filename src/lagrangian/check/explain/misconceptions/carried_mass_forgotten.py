@@ -1,4 +1,4 @@
-"""The mass of a child is left out of the equation of its parent."""
+"""A mass that is carried along is left out of the equation of what carries it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A force or torque on a relative coordinate is also counted on the parent."""
+"""A force or torque on a relative coordinate is also counted in an equation in which it does no work."""
 
 from __future__ import annotations
 
