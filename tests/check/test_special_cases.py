@@ -102,3 +102,53 @@ def test_a_rounded_angle_is_one_of_the_number_that_its_tangent_has(value: str, r
     angle = value if value.endswith("°") else f"{value}°"
     answer = f"{equation}\nequilibrium: tan(theta_0) = a/b = 0.4/1 = 0.4 → theta_0 = {angle}"
     assert s.derive().check(answer).right is right
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        "J phi''      kg m^2 / s^2 = N m   ok\nm r r' phi'  kg m m/s /s = N m  ok",
+        "k (r - a)     (N/m) m = N",
+        "J φ̈      kg m² / s² = N m",
+    ],
+)
+def test_terms_with_their_units_are_no_statements(table: str) -> None:
+    assert rod().check(f"{ROD}Units:\n{table}").right
+
+
+@pytest.mark.parametrize(("force", "right"), [("k (r - a)", True), ("2 k (r - a)", False)])
+def test_units_in_square_brackets_behind_terms_are_no_factors(force: str, right: bool) -> None:
+    second = f"m r''    [kg m/s² = N]\n- m r phi'^2    [kg m /s² = N]\n+ {force}   [N/m · m = N]\n= 0\n"
+    assert rod().check("(J + m r^2) phi'' + 2 m r r' phi' = M\n" + second).right is right
+
+
+@pytest.mark.parametrize(("coriolis", "right"), [("2 m r r' phi'", True), ("m r r' phi'", False)])
+def test_equations_may_stand_beside_virtual_displacements(coriolis: str, right: bool) -> None:
+    one = f"Only phi moves: [M - (J + m r^2) phi'' - {coriolis}] δphi = 0"
+    assert rod().check(f"{one}\nOnly r moves: [m r phi'^2 - k (r - a) - m r''] δr = 0").right is right
+
+
+@pytest.mark.parametrize("letter", ["δ₁", "δ1", "δ_1"])
+def test_a_letter_delta_with_a_number_is_no_variation(letter: str) -> None:
+    answer = f"With {letter} = r - a:\n" + ROD.replace("(r - a)", letter)
+    assert rod().check(answer).right
+    assert not rod().check(answer.replace("r - a:", "r + a:")).right
+
+
+def test_small_motions_about_a_tilted_rest_are_of_first_order_in_every_angle() -> None:
+    s = lg.System("bob on a slope")
+    x, theta = s.coordinates("x theta")
+    m, M, l, g, alpha = s.parameters("m M l g alpha")
+    s.particle(M, at=s.point("A", (x, 0)))
+    s.particle(m, at=s.point("B", (x + l * sp.sin(theta - alpha), -l * sp.cos(theta - alpha))))
+    s.gravity((-sp.sin(alpha), -sp.cos(alpha)), g)
+    s.force(s.input("F"), deflection=x)
+    derivation = s.derive()
+    exact = (
+        "(M + m) x'' + m l theta'' cos(theta - alpha) - m l theta'^2 sin(theta - alpha) + (M + m) g sin(alpha) = F\n"
+        "m l^2 theta'' + m l x'' cos(theta - alpha) + m g l sin(theta) = 0\n\nSmall motions, F = F0 + f:\n"
+    )
+    small = "(M + m) x'' + m l cos(alpha) theta'' = F - (M + m) g sin(alpha)\n"
+    second = "m l^2 theta'' + m l cos(alpha) x'' + m g l theta = 0"
+    assert derivation.check(exact + small + second).right
+    assert not derivation.check(exact + small.replace("cos(alpha)", "sin(alpha)") + second).right

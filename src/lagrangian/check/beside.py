@@ -257,6 +257,9 @@ def _rows_for_small(truth: Reference) -> Iterator[Sequence[sp.Expr]]:
         yield changed
         if moving:
             yield first_order(changed, names) or ()
+    yield (
+        first_order(truth.rows, [x for c in truth.model.coordinates for x in (c.symbol, c.rate, c.acceleration)]) or ()
+    )
     if sizes := amplitudes(truth):
         yield first_order(truth.rows, sizes) or ()
         yield first_order(truth.rows, [*names, *sizes]) or ()

@@ -39,9 +39,11 @@ def judged_with_work(
     """The verdict on an answer in which a virtual work states generalized forces.
 
     A line may be about some of the forces, and the forces with a potential may be among them. Wrong equations of motion
-    are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0.
+    are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0, and right ones where no others are stated.
     """
-    lines = [x for line in lines for x in _wrong_equations(truth, _in_coordinates(truth, lines, line)) or [line]]
+    alone = not any(line.kind == "equation" and accelerates(line.expr) for line in lines)
+    every = ((x, _equations_of(truth, _in_coordinates(truth, lines, x), right=alone)) for x in lines)
+    lines = [x for line, found in every for x in found or [line]]
     works = [k for k, line in enumerate(lines) if _is_work(truth, line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
@@ -84,8 +86,9 @@ def _is_place(truth: Reference, expr: sp.Expr) -> bool:
     return not expr.has(sp.Derivative) and bounded.letters(expr) <= known
 
 
-def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
-    """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0."""
+def _equations_of(truth: Reference, line: AnsweredLine, *, right: bool) -> list[AnsweredLine]:
+    """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0; with
+    ``right``, all of them."""
     claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
     moved = displacements(line.expr) if claims else {}
     places = {key(c.name) for c in truth.model.coordinates}
@@ -95,7 +98,8 @@ def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]
     if factors is None or any(not bounded.letters(f) <= truth.names for f in factors.values()):
         return []
     rows = compare(truth, list(factors.values())).rows
-    wrong = [f for f, row in zip(factors.values(), rows, strict=True) if not row.true and row.kind is not Kind.NOTHING]
+    each = zip(factors.values(), rows, strict=True)
+    wrong = [f for f, row in each if (right or not row.true) and row.kind is not Kind.NOTHING]
     return [replace(line, kind="equation", name=None, expr=f) for f in wrong]
 
 

@@ -1,4 +1,8 @@
-"""Takes checks of units off an answer: units: m g l = kg m/s² m = N m, b θ̇ = N m; and units behind sums of numbers."""
+"""Takes checks of units off an answer: units: m g l = kg m/s² m = N m, b θ̇ = N m; and units behind sums of numbers.
+
+J θ''        kg m²/s² = N m   ok          a term, and its unit far behind it or in square brackets
+m g s sin θ  [kg m/s² · m = N m]          the term alone is left
+"""
 
 from __future__ import annotations
 
@@ -24,6 +28,15 @@ _UNIT = (
     r"[ ]?(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s)(?:(?:²|³|\^\d)?[ ]?[·*/]?[ ]?(?:kg|N|m|s|rad)(?![A-Za-z_])){0,4}(?:²|³|\^\d)?"
     r"(?![\w'’′(^*/·])"
 )
+_FACTOR = r"(?:(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s|1)(?![A-Za-z_\d])(?:²|³|\^-?\d|⁻[¹²³])?|[()])"
+_PRODUCT = rf"{_FACTOR}(?:[ ]{{0,2}}[·*/⋅]?[ ]{{0,2}}{_FACTOR}){{0,16}}"
+_EQUATED = re.compile(
+    rf"(?:(?P<gap>[ \t]{{2,150}}+)|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
+    rf"(?P<units>{_PRODUCT}(?:[ ]?=[ ]?{_PRODUCT}){{1,3}})(?(open)[ ]?\])"
+    r"(?=[ \t]{0,20}(?:ok|OK|okay|passt|[✓✔☑])?[ \t.,]{0,20}$)",
+    re.MULTILINE,
+)
+"""A unit that is another, behind a gap or in square brackets."""
 _SUM = re.compile(
     rf"(?<![\w.,)/*^+·−-])(?<![/*^+·−-][ ])(?:{_NUMBER}[ ]?[-+−·*×/][ ]?){{1,8}}{_NUMBER}[ ]?=[ ]?{_NUMBER}"
     rf"(?P<unit>{_UNIT})"
@@ -52,7 +65,8 @@ def without_units_of_numbers(written: TracedText) -> TracedText:
 def without_unit_checks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer without what is equated to units on lines that say that they check these; ``taken``: whether
     the system has a name, which is no unit alone."""
-    return written.edited(_checks(written.text, taken))
+    checked = written.edited(_checks(written.text, taken))
+    return checked.edited(list(_equated(checked.text, taken)))
 
 
 def _checks(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
@@ -63,6 +77,17 @@ def _checks(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
                 if "=" in part.group() and _ends_in_units(part.group(), taken):
                     yield at + part.start(), at + part.end(), " " * len(part.group())
         at += len(line)
+
+
+def _equated(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
+    """Units that are equated to others, with the term whose unit it is if a gap parts them."""
+    for match in _EQUATED.finditer(text):
+        start = text.rfind("\n", 0, match.start()) + 1
+        before, names = text[start : match.start()], _NAME.findall(match["units"])
+        if not {"kg", "N"}.intersection(names) or all(map(taken, names)) or not before.strip():
+            continue
+        at = match.start() if match["open"] or "=" in before else start
+        yield at, text.find("\n", match.end()) % (len(text) + 1) if at == start else match.end(), ""
 
 
 def _ends_in_units(part: str, taken: Callable[[str], bool]) -> bool:

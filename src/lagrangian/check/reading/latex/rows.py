@@ -87,7 +87,7 @@ _TAG_BEFORE = re.compile(
 )
 """The name of an equation in brackets, or of those that were added, apart from it: (E_x)+(E_u)\\quad& …"""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
-_NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{OF_CHAPTER})\s*\)\Z")
+_NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|\*{{1,3}}|[†‡]|{OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
 _FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
 _ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")

@@ -71,7 +71,7 @@ VARIATION = "δ"
 """The sign of virtual displacements and virtual work: δx, δW."""
 _VARIED = re.compile(rf"{VARIATION}?[^{VARIATION}]+|{VARIATION}")
 """What stands in front of virtual displacements, and each of them."""
-_OWN_DELTA = re.compile(rf"{VARIATION}_?\d{{1,3}}")
+_OWN_DELTA = re.compile(rf"{VARIATION}_?[\d₀-₉]{{1,3}}")
 """A name with the letter δ: δ1 is no virtual displacement, of which a number has none."""
 _ARGUMENT = re.compile(r"(?:sin|cos|exp)[ ]?\(?[^()=\n]{0,40}\Z")
 """The text up to a place in the argument of a function: no t that stands there is a tonne."""
