@@ -27,6 +27,7 @@ MOVABLE = (Spring, Damper, Force, Torque)
 """The elements that a variant attaches elsewhere."""
 
 _STRETCH = re.compile(r"stretch|extension|elongation", re.IGNORECASE)
+_RELAXED = re.compile(r"relaxed|unstretched|undeformed", re.IGNORECASE)
 _RESTS = re.compile(r"\b(?:rests?|equilibrium|balances?|balanced)\b", re.IGNORECASE)
 _ORIGIN = re.compile(r" ?(?:measured )?\bfrom (?:where|when|the place where|the position where)\b[^,;:]*")
 _HELD = r"\b(?:on|by|from|between|at|under|over|through)\b[^,]*"
@@ -115,7 +116,7 @@ def _still(part: str, coordinate: Coordinate | None, new: Element) -> bool:
         return False
     if _STRETCH.search(part):
         return new.deflection == coordinate.symbol
-    return bool((new.deflection / coordinate.symbol).is_number)
+    return bool(_RELAXED.search(part)) and bool((new.deflection / coordinate.symbol).is_number)
 
 
 def _titled(model: Model, element: Element) -> bool:
