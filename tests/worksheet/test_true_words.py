@@ -13,7 +13,7 @@ from lagrangian.model import Damper, Spring
 from lagrangian.worksheet.dice import Dice
 from lagrangian.worksheet.directions import turned_words
 from lagrangian.worksheet.letters import new_letters, new_values, parameter_letters, relabelled
-from lagrangian.worksheet.sides import moves
+from lagrangian.worksheet.sides import moves, turns
 from lagrangian.worksheet.variant import variant_of
 from lagrangian.worksheet.worded import claims, formulas, relations, still_true, typeset, values_of
 
@@ -220,6 +220,19 @@ def test_no_letter_misleads() -> None:
         assert found["k"] == "k"
 
 
+def test_constants_of_nature_keep_their_values() -> None:
+    model = lg.example("capacitive-actuator").model
+    kept = [p.name for p in model.parameters if all(new_values(model, Dice(seed))[p.name] == p.value for seed in SEEDS)]
+    assert kept == ["epsilon"]
+
+
+def test_no_two_forces_act_at_one_place() -> None:
+    """The hoist of the crane pulls at the rope, not at the trolley beside the drive."""
+    for seed in range(1, 5):
+        made = variant_of(lg.example("crane").model, seed)
+        assert "force 'hoist' is on x" not in made.changes
+
+
 def test_axes_are_no_letters() -> None:
     assert relabelled("axle, along x; heading about z", {"x": "s", "z": "u"}) == "axle, along x; heading about z"
     assert relabelled("moves by x", {"x": "s"}) == "moves by s"
@@ -248,6 +261,16 @@ def test_a_force_the_other_way_round_is_told() -> None:
     assert "Force P is positive in the sense in which s falls." in sheet
     found = [variant(seed) for seed in SEEDS if any("other way round" in c for c in variant(seed).changes)]
     assert all(re.search(r"positive in the sense in which \w+ (?:grows|falls)", flat(made)) for made in found)
+
+
+def test_words_of_a_force_that_acts_the_other_way_round_keep_what_is_no_direction() -> None:
+    def words(name: str) -> list[dict[str, str]]:
+        return [dict(m.described or {}) for m in turns(lg.example(name).model)]
+
+    assert words("duffing") == [{"F_0": "strength of the force", "omega": "how often it comes and goes"}]
+    assert words("cart-pole") == [{"F": "pushes the cart backward"}]
+    assert words("two-carts") == [{"F": ""}]  # apart
+    assert {"F_h": ""} in words("crane")  # pull of the hoist
 
 
 def test_why_nothing_is_elsewhere_is_told() -> None:

@@ -50,6 +50,9 @@ INPUTS: tuple[tuple[str, tuple[str, ...]], ...] = (
 KEPT = {"g"}
 """Letters that everybody knows and no variant changes."""
 
+NATURE = ((9.81, "m/s"), (8.854e-12, "F/m"), (1.2566e-6, "H/m"))
+"""Constants of nature, with the end or the beginning of their unit, which keep their value, too."""
+
 FACTORS = (0.4, 0.5, 0.6, 0.8, 1.2, 1.25, 1.5, 2.0, 2.5, 3.0)
 """The factors between the values of a variant and those of the original."""
 
@@ -199,11 +202,13 @@ def new_values(model: Model, dice: Dice) -> dict[str, float | None]:
 def new_value(parameter: Parameter, dice: Dice) -> float | None:
     """Return another value [SI] for a parameter: a simple number in its unit, of the same size; None if it has none.
 
-    g, numbers without a unit and 0 keep their value; an angle changes by a few degrees.
+    g, constants of nature, numbers without a unit and 0 keep their value; an angle changes by a few degrees.
     """
     value, unit = parameter.value, parameter.unit
     factor = dice.one(FACTORS)
     if value is None or value == 0 or parameter.name in KEPT or not unit:
+        return value
+    if any(abs(value / known - 1) < 0.01 and u in unit for known, u in NATURE):
         return value
     scale = unit_factor(unit)
     if unit in ("deg", "rad"):

@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.model import Coordinate, Damper, Element, Force, Model, Spring, Torque
 from lagrangian.model.names import time
-from lagrangian.worksheet.directions import turned_words
+from lagrangian.worksheet.directions import says_direction, turned_words
 from lagrangian.worksheet.letters import index_of
 from lagrangian.worksheet.worded import parts_of, values_of
 
@@ -27,6 +27,7 @@ MOVABLE = (Spring, Damper, Force, Torque)
 """The elements that a variant attaches elsewhere."""
 
 _STRETCH = re.compile(r"stretch|extension|elongation", re.IGNORECASE)
+_PUSHES = re.compile(r"pull|push|lift|press|brak|tension|driv", re.IGNORECASE)
 _RELAXED = re.compile(r"relaxed|unstretched|undeformed", re.IGNORECASE)
 _RESTS = re.compile(r"\b(?:rests?|equilibrium|balances?|balanced)\b", re.IGNORECASE)
 _ORIGIN = re.compile(r" ?(?:measured )?\bfrom (?:where|when|the place where|the position where)\b[^,;:]*")
@@ -61,8 +62,12 @@ def told(model: Model, elements: Mapping[int, Element]) -> dict[str, str] | None
 
 def told_turned(model: Model, element: Element) -> dict[str, str]:
     """The descriptions of the letters of a force or torque that acts the other way round."""
-    own = letters_of(element)
-    return {x.name: turned_words(x.description) or "" for x in (*model.parameters, *model.inputs) if x.name in own}
+    found: dict[str, str] = {}
+    for x in (*model.parameters, *model.inputs):
+        if x.name in letters_of(element):
+            directed = says_direction(x.description) or _PUSHES.search(x.description)
+            found[x.name] = turned_words(x.description) or ("" if directed else x.description)
+    return found
 
 
 def letters_of(element: Element) -> set[str]:

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Any, cast
 
 import sympy as sp
@@ -80,7 +81,7 @@ class _Search:
     def __init__(self, model: Model) -> None:
         self.model = model
         self.size, self.undrawn = _size(model), _undrawn(model)
-        self.used, self.alone = _letters(model), _alone(model)
+        self.used, self.alone, self.doubled = _letters(model), _alone(model), _doubled(model)
         self.attempts = ATTEMPTS if self.size <= LONG else 1
         self.refused: Counter[str] = Counter()
         self.tried = 0
@@ -93,6 +94,7 @@ class _Search:
             not SMALLEST * self.size <= _size(made) <= LARGEST * self.size
             or not self.used <= _letters(made)
             or _alone(made) > self.alone
+            or _doubled(made) > self.doubled
         ):
             why = "changes the difficulty"
         elif _undrawn(made) > self.undrawn:
@@ -140,6 +142,16 @@ def _alone(model: Model) -> int:
     names = {n for e in model.elements if isinstance(e, kinds) for n in letters_of(e)}
     said = {x.symbol for x in (*model.parameters, *model.inputs) if x.name in names}
     return sum(not (bounded.letters(e.lhs) | bounded.letters(e.rhs)) & said for e in derive(model).equations)
+
+
+def _doubled(model: Model) -> int:
+    """The number of pairs of inputs that act at the same place, so that one of them would be enough."""
+    sides = [e.lhs - e.rhs for e in derive(model).equations]  # type: ignore[operator]
+    rows = [[bounded.diff(side, u.symbol) for side in sides] for u in model.inputs]
+    return sum(
+        any(all(bounded.expand(a + sign * b) == 0 for a, b in zip(one, other, strict=True)) for sign in (1, -1))
+        for one, other in combinations(rows, 2)
+    )
 
 
 def _letters(model: Model) -> set[Any]:
