@@ -47,15 +47,23 @@ def turns(model: Model) -> list[Moved]:
 
 
 def both(model: Model, one: Moved, other: Moved) -> Moved | None:
-    """Two moves in one, or None if an element would move twice or the words cannot be true."""
-    elements, turned = {**one.elements, **other.elements}, one.turned | other.turned
+    """Two moves in one, or None if an element would move twice or the words cannot be true.
+
+    What has moved may act the other way round as well.
+    """
+    again = set(one.elements) & set(other.elements)
+    if again and (one.turned or not other.turned):
+        return None
+    elements = {**other.elements, **one.elements, **{k: _negative(one.elements[k]) for k in again}}
+    turned = (one.turned | other.turned) - again
     words = told(model, {k: e for k, e in elements.items() if k not in turned})
-    if set(one.elements) & set(other.elements) or words is None:
+    if words is None:
         return None
     for move in (one, other):
-        if move.turned:
+        if move.turned & turned:
             words |= {name: "" if name in words else said for name, said in (move.described or {}).items()}
-    return Moved(elements, f"{one.what}; {other.what}", words, {**one.units, **other.units}, turned)
+    what = f"{one.what}, the other way round" if again else f"{one.what}; {other.what}"
+    return Moved(elements, what, words, {**one.units, **other.units}, turned)
 
 
 def _told(model: Model, move: Moved) -> Moved:
@@ -127,18 +135,18 @@ def _freed(model: Model) -> Iterator[Moved]:
         for one, other in permutations(places, 2):
             for axis in (0, 1):
                 mine, its = places[one][axis], places[other][axis]
-                rest = bounded.expand(model.expand(element.deflection) - (mine - its))
-                if rest.has(*own) or not mine.has(*own) or not its.has(*own):
-                    continue
-                made = _with(element, **_grounded(element, one, _way(model, mine), axis))
-                yield Moved({id(element): made}, f"{element.title} is between {one.title} and the ground")
+                deflection = model.expand(element.deflection)
+                side = next((s for s in (1, -1) if not bounded.expand(deflection - s * (mine - its)).has(*own)), 0)
+                if side and mine.has(*own) and its.has(*own):
+                    made = _with(element, **_grounded(element, one, side, _way(model, mine), axis))
+                    yield Moved({id(element): made}, f"{element.title} is between {one.title} and the ground")
 
 
-def _grounded(element: Any, body: Any, way: sp.Expr, axis: int) -> dict[str, Any]:
+def _grounded(element: Any, body: Any, side: int, way: sp.Expr, axis: int) -> dict[str, Any]:
     if not isinstance(element, Force):
         return {"deflection": way}
     value = [sp.S.Zero, sp.S.Zero]
-    value[axis] = element.value
+    value[axis] = side * element.value
     return {"deflection": None, "value": tuple(value), "at": body.at}
 
 
@@ -249,8 +257,14 @@ def _turned(model: Model) -> Iterator[Moved]:
             continue
         if isinstance(element, Torque) and (isinstance(element.value, tuple) or model.dimension != 2):
             continue
-        value: Any = element.value
-        made = _with(element, value=tuple(-x for x in value) if isinstance(value, tuple) else -value)
         if not any(letters_of(e) & letters_of(element) for e in model.elements if e is not element):
             what = f"{element.title} acts the other way round"
-            yield Moved({id(element): made}, what, told_turned(model, element), turned=frozenset([id(element)]))
+            yield Moved(
+                {id(element): _negative(element)}, what, told_turned(model, element), turned=frozenset([id(element)])
+            )
+
+
+def _negative(element: Any) -> Element:
+    """A force or torque that acts the other way round."""
+    value = element.value
+    return _with(element, value=tuple(-x for x in value) if isinstance(value, tuple) else -value)

@@ -137,11 +137,12 @@ class _Search:
 
 
 def _alone(model: Model) -> int:
-    """The number of equations with nothing but inertia, in which no spring, damper, force, torque or gravity is."""
-    kinds = (*MOVABLE, Gravity)
-    names = {n for e in model.elements if isinstance(e, kinds) for n in letters_of(e)}
+    """The number of coordinates that nothing but their own inertia concerns, no spring, force, gravity or neighbour."""
+    names = {n for e in model.elements if isinstance(e, (*MOVABLE, Gravity)) for n in letters_of(e)}
     said = {x.symbol for x in (*model.parameters, *model.inputs) if x.name in names}
-    return sum(not (bounded.letters(e.lhs) | bounded.letters(e.rhs)) & said for e in derive(model).equations)
+    own = {c.symbol for c in model.coordinates}
+    found = [bounded.letters(e.lhs) | bounded.letters(e.rhs) for e in derive(model).equations]
+    return sum(not letters & said and len(letters & own) == 1 for letters in found)
 
 
 def _doubled(model: Model) -> int:
