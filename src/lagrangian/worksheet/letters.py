@@ -74,14 +74,15 @@ def new_letters(
     ``tied`` to a symbol, as L_k for the arm of spring k, follows it. No letter misleads: one that had another kind of
     meaning is not used, nor one that is an index of something else.
     """
-    known, taken = {name for name, _ in names}, tuple(taken)
+    pools, taken = {name: tuple(pool) for name, pool in names}, tuple(taken)
     bases: dict[tuple[str, tuple[str, ...]], list[str]] = {}
     for name, pool in names:
         bases.setdefault((_split(name)[0], tuple(pool)), []).append(name)
     found: dict[str, str] = {}
-    indices = {index_of(n) for n in (*known, *taken)} - {""}
+    indices = {index_of(n) for n in (*pools, *taken)} - {""}
     for (base, pool), group in sorted(bases.items(), key=lambda item: any(n in tied for n in item[1])):
         foreign = {other for other, theirs in bases if theirs != pool}
+        foreign |= {_split(v)[0] for n, v in found.items() if pools[n] != pool}
         kept = foreign | indices | {index_of(n) for n in found.values()} - {""}
         free = [x for x in dice.shuffled(pool) if x != base and not {x, index_of(x)} & kept]
         free = [x for x in free if index_of(x) not in found.values()]
@@ -92,7 +93,7 @@ def new_letters(
                 found.update(made)
                 break
         else:
-            return {name: name for name in known}  # nothing fits beside the letters chosen before
+            return {name: name for name in pools}  # nothing fits beside the letters chosen before
     return found
 
 

@@ -13,7 +13,7 @@ from lagrangian import bounded
 from lagrangian.derive.coordinates import measured
 from lagrangian.model import Coordinate, Damper, Element, Force, Frame, Model, Spring, Torque
 from lagrangian.records import dataclass, field
-from lagrangian.worksheet.told import MOVABLE, letters_of, told, told_turned
+from lagrangian.worksheet.told import MOVABLE, from_outside, letters_of, told, told_turned
 
 Units = Mapping[str, tuple[str, float | None]]
 """The new units and values of parameters, by name."""
@@ -38,7 +38,8 @@ class Moved:
 def moves(model: Model) -> list[Moved]:
     """Return the ways to attach one or two elements elsewhere; each changes the equations in more than letters."""
     found = [*_exchanged(model), *_freed(model), *_tied(model), *_forces(model), *_torques(model), *_elsewhere(model)]
-    return [_told(model, move) for move in found]
+    inside = {id(e) for e in model.elements if isinstance(e, Force | Torque) and not from_outside(model, e)}
+    return [_told(model, move) for move in found if not inside & set(move.elements)]
 
 
 def turns(model: Model) -> list[Moved]:
@@ -253,7 +254,7 @@ def _has_law(element: Any) -> bool:
 def _turned(model: Model) -> Iterator[Moved]:
     """A force or torque, with a letter of its own, acts the other way round."""
     for element in model.elements:
-        if not isinstance(element, Force | Torque) or not letters_of(element):
+        if not isinstance(element, Force | Torque) or not letters_of(element) or not from_outside(model, element):
             continue
         if isinstance(element, Torque) and (isinstance(element.value, tuple) or model.dimension != 2):
             continue

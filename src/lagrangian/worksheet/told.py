@@ -27,7 +27,7 @@ MOVABLE = (Spring, Damper, Force, Torque)
 """The elements that a variant attaches elsewhere."""
 
 _STRETCH = re.compile(r"stretch|extension|elongation", re.IGNORECASE)
-_PUSHES = re.compile(r"pull|push|lift|press|brak|tension|driv", re.IGNORECASE)
+_PUSHES = re.compile(r"pull|push|lift|press|brak|tension|driv|thrust", re.IGNORECASE)
 _RELAXED = re.compile(r"relaxed|unstretched|undeformed", re.IGNORECASE)
 _RESTS = re.compile(r"\b(?:rests?|equilibrium|balances?|balanced)\b", re.IGNORECASE)
 _ORIGIN = re.compile(r" ?(?:measured )?\bfrom (?:where|when|the place where|the position where)\b[^,;:]*")
@@ -73,6 +73,12 @@ def told_turned(model: Model, element: Element) -> dict[str, str]:
 def letters_of(element: Element) -> set[str]:
     """The parameters and inputs in the constants or the value of an element."""
     return {getattr(s, "name", None) or s.func.__name__ for x in _values(element) for s in _symbols(x)}
+
+
+def from_outside(model: Model, element: Element) -> bool:
+    """Whether a force or torque depends on nothing that moves, as a drag does on the velocity."""
+    own = [c.symbol for c in model.coordinates]
+    return not any(model.expand(x).has(sp.Derivative, *own) for x in _values(element))
 
 
 def _bare(elements: Iterable[Element]) -> set[str]:
@@ -132,7 +138,9 @@ def _titled(model: Model, element: Element) -> bool:
 
 
 def _indexed(model: Model, element: Any, own: set[str]) -> bool:
-    """Whether a length in the deflection of an element is named after it, as L_k after k."""
+    """Whether a length in the deflection of an element is named after it, L_k after k, or its letter after its name."""
+    if any(len(index_of(n)) > 1 and index_of(n) in element.name.split() for n in own):
+        return True
     deflection = getattr(element, "deflection", None)
     letters = {str(s) for s in deflection.free_symbols} if isinstance(deflection, sp.Expr) else set[str]()
     return any(index_of(p.name) in own for p in model.parameters if p.name in letters)

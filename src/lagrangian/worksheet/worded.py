@@ -42,7 +42,7 @@ _QUANTITY = re.compile(r"(?<![\w.*/^])\d[\d.]* ?[^\W\d_][\w*/^²³·]*")
 
 
 @dataclass(frozen=True)
-class InWords:
+class Spelled:
     """A formula or a letter in words, from ``start`` to ``end``; ``formula`` unless it is one bare letter."""
 
     start: int
@@ -86,13 +86,13 @@ def parts_of(description: str) -> list[str]:
     return re.split(r"(?=[,;:])", description)
 
 
-def formulas(model: Model, words: str) -> list[InWords]:
+def formulas(model: Model, words: str) -> list[Spelled]:
     """The formulas and letters of a model in words, in order; what the reader of expressions refuses is no formula."""
     if len(words) > MAX_WORDS:
         return []
     scope = {x.name: x.symbol for x in (*model.coordinates, *model.parameters, *model.inputs, *model.definitions)}
     tokens = list(_TOKEN.finditer(words))
-    found: list[InWords] = []
+    found: list[Spelled] = []
     k = 0
     while k < len(tokens):
         last = k if tokens[k]["blank"] else _expression(tokens, k, scope)
@@ -103,7 +103,7 @@ def formulas(model: Model, words: str) -> list[InWords]:
     return found
 
 
-def _read(words: str, tokens: Sequence[re.Match[str]], scope: Mapping[str, sp.Basic]) -> InWords | None:
+def _read(words: str, tokens: Sequence[re.Match[str]], scope: Mapping[str, sp.Basic]) -> Spelled | None:
     start, end = tokens[0].start(), tokens[-1].end()
     names = [t[0] for t in tokens if t["name"]]
     bare = len(tokens) == 1
@@ -114,7 +114,7 @@ def _read(words: str, tokens: Sequence[re.Match[str]], scope: Mapping[str, sp.Ba
     if all(t["name"] or t[0] in "- " for t in tokens) and not bare and " " not in words[start:end]:
         return None  # the x-y plane
     try:
-        return InWords(start, end, parse_expression(words[start:end], scope), not bare)
+        return Spelled(start, end, parse_expression(words[start:end], scope), not bare)
     except Error:
         return None
 
@@ -181,7 +181,7 @@ def claims(model: Model, parameter: Parameter | None, part: str) -> Iterator[Cla
             yield Claim(parameter.symbol, one.expression, _conditional(part, one, one))
 
 
-def _conditional(part: str, first: InWords, last: InWords) -> bool:
+def _conditional(part: str, first: Spelled, last: Spelled) -> bool:
     return bool(_BEFORE.search(part[: first.start]) or _AFTER.match(part[last.end :]))
 
 
