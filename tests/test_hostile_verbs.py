@@ -12,7 +12,6 @@ from hostile_answers import answer
 from hostile_models import KINDS, LONGEST, model
 from lagrangian.bounded import questions
 from lagrangian.cli import main
-from lagrangian.worksheet.dice import Dice
 from lagrangian.worksheet.sides import moves
 from size import rest_slow
 
@@ -110,7 +109,7 @@ def test_pictures_and_variants_of_long_constants_end() -> None:
     system = lg.loads(HOOP)
     with at_most(3_000_000):
         assert system.look().to_svg()
-        assert moves(system.model, Dice(1, 1)) == []
+        assert moves(system.model) == []
 
 
 FURUTA = built_in.system("furuta-pendulum")

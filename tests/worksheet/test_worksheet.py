@@ -97,8 +97,9 @@ def test_a_question_sheet_has_the_figure_where_the_format_has_figures() -> None:
 
 
 def test_words_follow_what_a_variant_changes() -> None:
-    made = sheet("lecture-3b", 1)
-    assert made.substantial and "x2r absolute" in made.changes
+    found = (sheet("lecture-3b", seed) for seed in range(100, 130))
+    made = next(m for m in found if {"x2r absolute"} < {*m.changes} and not any("spring" in c for c in m.changes))
+    assert made.substantial
     one, two = made.model.coordinates
     assert two.description == one.description.replace("cart 1", "cart 2")
     assert "relative" not in made.model.name and "pushes the carts apart" not in made.question()
@@ -106,13 +107,13 @@ def test_words_follow_what_a_variant_changes() -> None:
 
 @pytest.mark.slow
 def test_a_coordinate_is_relative_to_one_that_stays() -> None:
-    """q3 relative to mass 2 means that mass 3 is at q2 + q3, so q2 itself is not turned round."""
-    made = sheet("three-masses", 2)
+    """q2 relative to mass 1 means that mass 2 is at q1 + q2, so q1 itself is not turned round."""
+    made = sheet("three-masses", 3)
     (what,) = [c for c in made.changes if "relative" in c]
-    assert what == "x3 relative to x2" and "x2 the other way round" not in made.changes
+    assert what == "x2 relative to x1" and "x1 the other way round" not in made.changes
     first, second, third = (made.model.position(b.at)[0] for b in made.model.bodies)
     q1, q2, q3 = (c.symbol for c in made.model.coordinates)
-    assert third == q2 + q3 and second == q2 and abs(first.coeff(q1)) == 1
+    assert first == q1 and second == q1 + q2 and abs(third.coeff(q3)) == 1
 
 
 def test_letters_keep_their_index_and_never_collide() -> None:
@@ -121,7 +122,7 @@ def test_letters_keep_their_index_and_never_collide() -> None:
         found = new_letters(pools, ["c", "M3"], Dice(seed))
         assert found["m1"] == "M1" and found["m2"] == "M2"
         assert found["k"] == "k"  # c is taken
-        assert found["l_a"] == "a_a"
+        assert found["l_a"] == "l_a"  # a is an index already
 
 
 def test_dice_are_the_same_everywhere() -> None:
@@ -256,7 +257,6 @@ def test_descriptions_follow_the_letters_of_a_variant() -> None:
     assert relabelled(said, names) == "turn of the spool, clockwise; the centre moves by d*gamma"
     assert relabelled("spring, relaxed at x = 0", names) == "spring"
     assert relabelled("mass of a spool, 2 m long", names) == "mass of a spool, 2 m long"
-    assert relabelled("drum, R = 2*m", names, other_values=True) == "drum"
 
 
 def test_a_damper_in_a_hinge_is_between_what_the_hinge_joins() -> None:

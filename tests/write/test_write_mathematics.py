@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from lagrangian.model import Builder, Particle, time
 from lagrangian.write.breaking import break_lines
 from lagrangian.write.expression import Expressions
-from lagrangian.write.expression_tree import Addition, Grid, Letter, Number, Power, Quotient, Times, tokens
+from lagrangian.write.expression_tree import Addition, Grid, Letter, Number, Power, Quotient, Tagged, Times, tokens
+from lagrangian.write.html_page import _terms
 from lagrangian.write.lines import lines, measure, set_columns
 from lagrangian.write.mathml import mathml
 from lagrangian.write.names import letters
@@ -383,3 +384,13 @@ def test_decimal_numbers_are_written_as_such_where_a_fraction_is_long(number: sp
     assert unicode(WRITE(number)).strip("()") == written
     assert written in unicode(WRITE(number * m1))
     assert unicode(WRITE(-number * m1 / L)).startswith("−")
+
+
+def test_a_sum_that_is_subtracted_keeps_its_parentheses_in_a_page() -> None:
+    """As one term of a page's equation, which has a colour of its own, too."""
+    total = Addition(((False, Letter("a")), (False, Letter("b"))))
+    for term in (total, Tagged(total, ("spring 'k'",), "spring")):
+        page = _terms(Addition(((False, Letter("c")), (True, term))), [])
+        assert re.sub(r"<[^>]+>|\s", "", page) == "c−(a+b)"
+        page = _terms(Addition(((False, Letter("c")), (False, term))), [])
+        assert re.sub(r"<[^>]+>|\s", "", page) == "c+a+b"

@@ -159,8 +159,8 @@ def _tell(name: str, sheet: Worksheet) -> None:
     """Say what a variant changes, and whether a copied solution of the original would be wrong."""
     if sheet.seed is None:
         return
-    copied = "" if sheet.substantial else " (a solution of the original may be right here, in other letters)"
-    say(f"{name}: {'; '.join(sheet.changes)}{copied}")
+    copied = f" ({sheet.reason}; a solution of the original may be right here, in other letters)"
+    say(f"{name}: {'; '.join(sheet.changes)}{'' if sheet.substantial else copied}")
 
 
 def _make(folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -24,6 +25,50 @@ OPPOSITES = {
     "counter-clockwise": "clockwise",
 }
 OPPOSITES |= {other: one for one, other in OPPOSITES.items()}
+
+
+WORDS = (
+    ("to the right", "to the left"),
+    ("rightward", "leftward"),
+    ("upward", "downward"),
+    ("up", "down"),
+    ("counter-clockwise", "clockwise"),
+    ("forward", "backward"),
+)
+"""Words for directions, with their opposites; some may end in s."""
+
+_TURNED = {one: other for a, b in WORDS for one, other in ((a, b), (b, a))} | {"counterclockwise": "clockwise"}
+_DIRECTION = re.compile(
+    r"(?<!straight )(?<!hanging )(?<!pointing )\b(?:(to the right|to the left|counter-?clockwise|clockwise"
+    r"|(?:down|up|for|back|right|left)ward)(s?)|(down|up)(?= the \w+| from |$|[,;]))\b"
+)
+_OTHER = re.compile(
+    r"\b(?:out of|into|towards?|away|apart|together|above|below|over|against|inwards?|outwards?|ahead|behind"
+    r"|stretch\w*|extension|elongation|compression|length|height|depth|distance|depression|gap|opening)\b"
+)
+"""Words that say a direction, too, and have no opposite that fits everywhere."""
+
+
+def turned_words(words: str, sense: str | None = None) -> str | None:
+    """A description with the opposite of its only direction: "drum, clockwise" as "drum, counter-clockwise".
+
+    What is measured or acts along the one is measured or acts along the other with the opposite sign. None if there is
+    not one direction, or if it is not the ``sense`` that the geometry has.
+    """
+    found = list(_DIRECTION.finditer(words))
+    if len(found) != 1 or _OTHER.search(words):
+        return None
+    (one,) = found
+    word = one[1] or one[3]
+    fixed = {"up": "upward", "down": "downward"}.get(word, word)
+    if sense is not None and fixed in OPPOSITES and fixed != sense and " the " not in words[one.end() : one.end() + 5]:
+        return None
+    return f"{words[: one.start()]}{_TURNED[word]}{one[2] or ''}{words[one.end() :]}"
+
+
+def says_direction(words: str) -> bool:
+    """Whether a description says which way is positive."""
+    return bool(_DIRECTION.search(words) or _OTHER.search(words) or "positive" in words)
 
 
 def turned_round(sense: str) -> str:

@@ -19,9 +19,11 @@ from lagrangian.model import (
     Force,
     Gravity,
     Inductor,
+    Input,
     Kinetic,
     Model,
     MutualInductance,
+    Parameter,
     Potential,
     Resistor,
     RigidBody,
@@ -34,6 +36,7 @@ from lagrangian.model import (
 from lagrangian.page.formula import Item, Left, Name, Table, Text, text
 from lagrangian.page.plain import plain
 from lagrangian.worksheet.directions import along, positive_sense
+from lagrangian.worksheet.worded import typeset
 from lagrangian.write.numerals import measured, unit
 
 STEPS: tuple[tuple[str | Left, ...], ...] = (
@@ -160,15 +163,20 @@ def _relaxed(model: Model, spring: Spring) -> Iterator[Item]:
 
 def _positive(model: Model, element: Force | Torque) -> Iterator[Item]:
     """Which way a force or torque is positive, and how it depends on its letter."""
-    if isinstance(element, Torque):
-        if isinstance(element.on, sp.Expr) and isinstance(element.value, sp.Expr):
-            yield text(*_named(element, element.value), " in the sense in which ", element.on, " grows.")
+    if isinstance(element.value, sp.Expr):
+        turned = _sign(element.value) < 0
+        named = _named(element, -element.value if turned else element.value)
+        along_it = element.on if isinstance(element, Torque) else element.deflection
+        if isinstance(along_it, sp.Expr):
+            if not along_it.is_Add and _sign(along_it) < 0:
+                along_it, turned = -along_it, not turned
+            yield text(*named, " in the sense in which ", along_it, " falls." if turned else " grows.")
+        elif isinstance(element, Force):
+            yield text(*named, f" where it {'pulls its two ends together' if turned else 'pushes its two ends apart'}.")
+        elif model.dimension == 2:
+            yield text(*named, f" {'clockwise' if turned else 'counter-clockwise'}{_turned_body(model, element)}.")
         return
-    if element.at is None:
-        if element.deflection is not None:
-            yield text(*_named(element, element.value), " in the sense in which ", element.deflection, " grows.")
-        else:
-            yield text(*_named(element, element.value), " where it pushes its two ends apart.")
+    if isinstance(element, Torque):
         return
     values = [x for x in element.value if x != 0]
     known = along([sp.S.One * _sign(x) if x != 0 else x for x in element.value])
@@ -184,6 +192,12 @@ def _where(model: Model, force: Force) -> str:
     """Where a force acts on a body that is not a point."""
     found = next((b for b in model.bodies if b.at is force.at and isinstance(b, RigidBody)), None)
     return "" if found is None else f"; it acts at the centre of mass of {found.title}"
+
+
+def _turned_body(model: Model, torque: Torque) -> str:
+    """What a torque on a frame turns."""
+    found = next((b for b in model.bodies if getattr(b, "frame", None) is torque.on), None)
+    return "" if found is None else f"; it turns {found.title}"
 
 
 def _named(element: Element, value: sp.Expr) -> tuple[str | Left, ...]:
@@ -202,8 +216,8 @@ def _coordinates(model: Model) -> Table:
     for c in model.coordinates:
         sense = positive_sense(model, c)
         known = sense is None or "positive" in c.description or sense in c.description
-        words = c.description or "a coordinate"
-        rows.append((text(c.symbol), text(words if known else f"{words}; positive {sense}")))
+        words = typeset(model, c.description or "a coordinate")
+        rows.append((text(c.symbol), text(*words, *([] if known else [f"; positive {sense}"]))))
     return Table((text("coordinate"), text("what it measures")), tuple(rows))
 
 
@@ -211,10 +225,10 @@ def _letters(model: Model) -> Iterator[tuple[Text, ...]]:
     """The parameters with their values and the inputs with their units."""
     for p in model.parameters:
         value = "" if p.value is None else measured(p.value, p.unit)
-        yield text(p.symbol), text(_meaning(model, p.symbol, p.description)), text(value)
+        yield text(p.symbol), text(*_meaning(model, p.symbol, p)), text(value)
     for u in model.inputs:
         measure = f"[{unit(u.unit)}]" if u.unit else ""
-        yield text(u.symbol), text(_meaning(model, u.symbol, u.description)), text(measure)
+        yield text(u.symbol), text(*_meaning(model, u.symbol, u)), text(measure)
 
 
 ROLES: tuple[tuple[type[Element], str, str, str], ...] = (
@@ -235,17 +249,51 @@ ROLES: tuple[tuple[type[Element], str, str, str], ...] = (
 """What a letter is: the kind of element, its field, the role beside a description, and the words without one."""
 
 
-def _meaning(model: Model, symbol: sp.Expr, description: str) -> str:
-    """The description of a letter with its role in the element that has it: "pole (mass)"."""
-    for element in model.elements:
-        for kind, key, role, alone in ROLES:
-            if isinstance(element, kind) and _holds(getattr(element, key, None), symbol):
-                if not description:
-                    return alone.format(element.title)
-                return description if _says(description, role) else f"{description} ({role})"
-    if description:
-        return description
-    return "input" if isinstance(symbol, AppliedUndef) else "constant"
+LENGTHS_AND_ANGLES = ((r"[mcdµu]?m", "length"), (r"deg|rad", "angle"))
+"""What a letter without a description is that stands only in the geometry, by its unit."""
+
+
+def _meaning(model: Model, symbol: sp.Expr, letter: Parameter | Input) -> list[str | Left]:
+    """What a letter is: its description with its role, "pole (mass)", or the elements that have it."""
+    description = letter.description
+    uses = [
+        (role, alone, element)
+        for element in model.elements
+        for kind, key, role, alone in ROLES
+        if isinstance(element, kind) and _holds(getattr(element, key, None), symbol)
+    ]
+    if not description:
+        words = [
+            _of_all(alone, [e for _, a, e in uses if a == alone]) for alone in dict.fromkeys(a for _, a, _ in uses)
+        ]
+        return ["; ".join(words)] if words else [_kind_of(letter)]
+    parts = typeset(model, description)
+    if uses and (roles := [r for r in dict.fromkeys(r for r, _, _ in uses) if not _says(description, r)]):
+        parts.append(f" ({' and '.join(roles)})")
+    others = [(alone, e) for _, alone, e in uses if not _named_in(e, description)]
+    if len(uses) > len(others) > 0:  # it names one of the elements that have the letter, and not the others
+        kinds = dict.fromkeys(alone for alone, _ in others)
+        parts.append(f"; also {' and '.join(_of_all(a, [e for b, e in others if a == b]) for a in kinds)}")
+    return parts
+
+
+def _of_all(alone: str, elements: list[Element]) -> str:
+    """What a letter is to several elements: "mass of rigid body 'drum' and particle 'load'"."""
+    if len(elements) > 1 and alone.endswith("its centre of mass"):
+        alone = alone.replace(" about its", ", each about its")
+    return alone.format(listed(list(dict.fromkeys(e.title for e in elements))))
+
+
+def _named_in(element: Element, description: str) -> bool:
+    """Whether a description names an element."""
+    return bool(re.search(rf"\b{re.escape(element.name)}\b", description)) and len(element.name) > 2
+
+
+def _kind_of(letter: Parameter | Input) -> str:
+    """What a letter is that no element has, from its unit."""
+    if isinstance(letter.symbol, AppliedUndef):
+        return "input"
+    return next((what for unit, what in LENGTHS_AND_ANGLES if re.fullmatch(unit, letter.unit or "")), "constant")
 
 
 def _holds(value: object, symbol: sp.Expr) -> bool:

@@ -16,7 +16,7 @@ from lagrangian.model import Coordinate, Model
 from lagrangian.model.names import moving_symbol
 from lagrangian.records import dataclass
 from lagrangian.worksheet.dice import Dice
-from lagrangian.worksheet.directions import positive_sense, turned_round
+from lagrangian.worksheet.directions import positive_sense, says_direction, turned_round, turned_words
 
 OPPOSITE = (
     (r"hanging(?: straight)? down", "pointing straight up"),
@@ -28,8 +28,8 @@ FROM = re.compile(r"(?P<head>[^,]+), (?:(?:up|down) )?from (?P<tail>[^,:;]+)$")
 RELATIVE = re.compile(r"(?P<head>[^,]+), (?:relative to (?P<parent>[^,:;]+)|from (?P<from>[^,:;(]+) \(relative\))")
 """Descriptions of coordinates: "cart 1, from the wall", "rod 2, relative to rod 1"."""
 
-SAID = re.compile(r"positive|\bup\b|\bdownward|\bdown$|clockwise|forward|\bleft\b|\bright\b", re.IGNORECASE)
-"""Words of a description that say which way is positive."""
+SPRUNG = re.compile(r"relaxed|unstretched|\bspring\b", re.IGNORECASE)
+"""Words of a description that say where a spring is relaxed."""
 
 
 @dataclass(frozen=True)
@@ -47,24 +47,28 @@ class Remeasured:
     to: tuple[Any, ...] = ()
 
 
-def remeasured(model: Model, names: Mapping[str, str], dice: Dice) -> list[Remeasured]:
-    """Return the coordinates in new names, some of them measured in another way.
+def remeasured(
+    model: Model, names: Mapping[str, str], dice: Dice, *, keen: bool = False, sprung: bool = False
+) -> list[Remeasured]:
+    """Return the coordinates in new names, some of them measured in another way; as many as possible if ``keen``.
 
-    At most one coordinate is changed from absolute to relative or back, because others refer to it.
+    At most one coordinate is changed from absolute to relative or back, because others refer to it. If a spring has
+    moved (``sprung``), no coordinate gets the words of another about where it is relaxed.
     """
     kinds = measured(model)
     named = {c.symbol: names.get(c.name, c.name) for c in model.coordinates}
     symbols = {c.symbol: moving_symbol(named[c.symbol], positive=c.positive) for c in model.coordinates}
     chosen: dict[Any, Remeasured] = {}
     related = [r for c in model.coordinates if c.name in names for r in _related(model, c, kinds, symbols)]
+    related = [r for r in related if not (sprung and SPRUNG.search(r.description))]
     fixed: set[Any] = set()
-    if related and dice.chance(0.7):
+    if related and (dice.chance(0.7) or keen):
         one = dice.one(related)
         chosen[one.coordinate.symbol] = one
         fixed = set(one.to)  # it is measured from this one, which therefore stays as it was
     for c in model.coordinates:
         options = [] if c.symbol in fixed or c.name not in names else list(_turned(model, c, kinds, symbols))
-        if c.symbol not in chosen and options and dice.chance(0.6):
+        if c.symbol not in chosen and options and (dice.chance(0.6) or keen):
             chosen[c.symbol] = dice.one(options)
     plainly = {c.symbol: Remeasured(c, named[c.symbol], symbols[c.symbol], c.description) for c in model.coordinates}
     return [chosen.get(s, r) for s, r in plainly.items()]
@@ -73,12 +77,17 @@ def remeasured(model: Model, names: Mapping[str, str], dice: Dice) -> list[Remea
 def _turned(
     model: Model, c: Coordinate, kinds: Mapping[sp.Expr, MeasuredFrom], symbols: Mapping[Any, Any]
 ) -> Iterator[Remeasured]:
-    """An absolute coordinate from the opposite direction, or with the other sense."""
+    """A coordinate with the other sense, or an absolute one from the opposite direction."""
     kind, new = kinds[c.symbol], symbols[c.symbol]
     name = new.func.__name__
-    if kind.to is not None or not kind.known or c.positive or model.dimension != 2:
+    if not kind.known or c.positive:
         return
-    others = [k.to for s, k in kinds.items() if s != c.symbol]
+    referred = c.symbol in [k.to for s, k in kinds.items() if s != c.symbol]
+    sense, what = positive_sense(model, c), f"{c.name} the other way round"
+    if not referred and (words := turned_words(c.description, sense)) is not None:
+        yield Remeasured(c, name, -new, words, what)
+    if kind.to is not None or model.dimension != 2:
+        return
     tail = FROM.fullmatch(c.description)
     if kind.angle and tail is not None:
         for pattern, opposite in OPPOSITE:
@@ -86,10 +95,8 @@ def _turned(
                 yield Remeasured(
                     c, name, new - sp.pi, f"{tail['head']}, from {opposite}", f"{c.name} from the other side"
                 )
-    sense = positive_sense(model, c)
-    if c.description and sense is not None and c.symbol not in others and not SAID.search(c.description):
-        words = f"{c.description}, positive {turned_round(sense)}"
-        yield Remeasured(c, name, -new, words, f"{c.name} the other way round")
+    if c.description and sense is not None and not referred and not says_direction(c.description):
+        yield Remeasured(c, name, -new, f"{c.description}, positive {turned_round(sense)}", what)
 
 
 def _related(

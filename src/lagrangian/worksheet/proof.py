@@ -1,7 +1,8 @@
 """Holds the sheets of an exercise against its model file, which is read back as somebody who checks answers reads it.
 
 The solution is judged as an answer to the file: whole as Markdown, and its results as text, LaTeX and HTML. The values
-of the question are read from its table of letters, by the reader of quantities.
+of the question are read from its table of letters, by the reader of quantities. A formula in a description must agree
+with the values.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from lagrangian.derive import Derived
 from lagrangian.errors import Error
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, text
+from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity
+from lagrangian.worksheet.worded import claims, number, parts_of, values_of
 
 TOLERANCE = 1e-9
 """Printed values differ from those of the file by no more than this, relative to these."""
@@ -41,9 +44,8 @@ def sheet_checks(
     except Error as error:
         return (Check(what, False, f"the model file is refused: {error.what[:120]}"),)
     if own.form != "expanded":
-        return Check(what, None, "not checked: equations in named quantities are not read as an answer"), *_sheets(
-            own.model, question
-        )
+        unread = Check(what, None, "not checked: equations in named quantities are not read as an answer")
+        return unread, *_sheets(own.model, question), *_described(own.model)
     (whole,) = printed_checks(own, {"whole": solution("markdown", False)})
     if whole.holds is None:  # what a matrix to a power says, no answer says: then its results alone
         (whole,) = printed_checks(own, {"brief": solution("markdown", True)})
@@ -53,7 +55,7 @@ def sheet_checks(
         Check(text(f"the solution as {name}, read back, is right for the model file"), c.holds, c.figure)
         for name, c in zip(("Markdown", *pages, "HTML"), (whole, *rest), strict=True)
     ]
-    return *judged, *_sheets(own.model, question)
+    return *judged, *_sheets(own.model, question), *_described(own.model)
 
 
 class Sheets(Protocol):
@@ -89,6 +91,22 @@ def _values(model: Model, name: str, sheet: str) -> Check:
         return Check(what, False, f"{len(printed)} values are printed, and the file has {len(wanted)}")
     wrong = [p for (p, value), cell in zip(wanted, printed, strict=True) if not _same(value, cell)]
     return Check(what, not wrong, f"{', '.join(wrong)} differ" if wrong else f"{len(wanted)} values")
+
+
+def _described(model: Model) -> Iterator[Check]:
+    """Whether the formulas in the descriptions of letters agree with the values, if there are such formulas."""
+    values, wrong, count = values_of(model), list[str](), 0
+    for p in model.parameters:
+        for claim in (c for part in parts_of(p.description) for c in claims(model, p, part) if not c.loose):
+            held = claim.holds(values)
+            count += held is not None
+            if held is False:
+                numbers = [f"{side:.4g}" for x in (claim.left, claim.right) if (side := number(x, values)) is not None]
+                wrong.append(f"{plain(claim.left)} = {plain(claim.right)} of '{p.name}' says {' = '.join(numbers)}")
+    if count:
+        what = text("the formulas in the descriptions of letters agree with the values")
+        said = f"{count} formula{'s' if count > 1 else ''}"
+        yield Check(what, not wrong, "; ".join(wrong) if wrong else said)
 
 
 def _printed(sheet: str) -> Iterator[str]:

@@ -39,13 +39,14 @@ class Worksheet:
     """An exercise: a question sheet, its solution, and the model file against which answers are checked.
 
     ``seed`` is None for the system itself; otherwise ``changes`` say how the variant differs from it, and
-    ``substantial`` whether by more than letters, values and coordinates.
+    ``substantial`` whether by more than letters, values and coordinates; if not, ``reason`` says why.
     """
 
     model: Model
     seed: int | None = None
     changes: tuple[str, ...] = ()
     substantial: bool = False
+    reason: str = ""
     notation: Notation = field(default="lecture", kw_only=True)
 
     @cached_property
@@ -58,9 +59,9 @@ class Worksheet:
         return dumps(self.model)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data: the name, the seed, and what was changed."""
-        changes = list(self.changes)
-        return {"name": self.model.name, "seed": self.seed, "changes": changes, "substantial": self.substantial}
+        """Return plain data: the name, the seed, what was changed, and why no more than that."""
+        own = {"changes": list(self.changes), "substantial": self.substantial, "reason": self.reason}
+        return {"name": self.model.name, "seed": self.seed, **own}
 
     def question(self, format: SheetFormat = "text") -> str:
         """Return the question sheet: figure, what is given in words and letters, and the seven steps.
@@ -153,4 +154,4 @@ def worksheet(model: Model, *, seed: int | None = None, notation: Notation = "le
     if seed is None:
         return Worksheet(model, notation=notation)
     found = variant_of(model, checked_seed(seed))
-    return Worksheet(found.model, seed, found.changes, found.substantial, notation=notation)
+    return Worksheet(found.model, seed, found.changes, found.substantial, found.reason, notation=notation)

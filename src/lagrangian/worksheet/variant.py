@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Any, cast
 
 import sympy as sp
@@ -16,15 +18,17 @@ from lagrangian.errors import Error
 from lagrangian.look.heading import head_picture
 from lagrangian.look.hints import hints_of
 from lagrangian.look.scenes import scene_of
-from lagrangian.model import Element, Model
+from lagrangian.model import Element, Gravity, Model, Parameter, Spring
 from lagrangian.model.names import moving_symbol
 from lagrangian.records import dataclass
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.viewed import Brief
 from lagrangian.worksheet.dice import Dice
-from lagrangian.worksheet.letters import coordinate_letters, new_value, parameter_letters, relabelled
+from lagrangian.worksheet.letters import coordinate_letters, new_values, parameter_letters, relabelled
 from lagrangian.worksheet.measure import Remeasured, remeasured
-from lagrangian.worksheet.sides import Moved, moves
+from lagrangian.worksheet.sides import Moved, both, moves, turns
+from lagrangian.worksheet.told import MOVABLE, letters_of, named_by_words
+from lagrangian.worksheet.worded import still_true
 
 SMALLEST, LARGEST = 0.6, 1.7
 """The equations of a variant have at least, and at most, so many times the operations of the original's."""
@@ -41,12 +45,13 @@ class SystemVariant(Brief):
     """A variant: its model, its changes in words, and whether they concern more than letters, values and coordinates.
 
     If ``substantial``, the solution of the original is wrong here, whatever its letters; otherwise it may be right in
-    other letters or coordinates.
+    other letters or coordinates, and ``reason`` says why nothing is attached elsewhere.
     """
 
     model: Model
     changes: tuple[str, ...]
     substantial: bool
+    reason: str = ""
 
 
 def variant_of(model: Model, seed: int) -> SystemVariant:
@@ -56,29 +61,104 @@ def variant_of(model: Model, seed: int) -> SystemVariant:
     completely as the original. Raises `Error` if the original cannot be derived.
     """
     model = _running(model, "duration", "initial")
-    size = _size(model)
-    attempts = ATTEMPTS if size <= LONG else 1
-    undrawn = _undrawn(model)
-
-    def fits(made: Model) -> bool:
-        return SMALLEST * size <= _size(made) <= LARGEST * size and _undrawn(made) <= undrawn
-
-    dice = Dice(seed, 1)
-    base, moved = model, None
-    for move in moves(model, dice)[:attempts]:
-        made = _tried(lambda move=move: _lettered(model, {}, {}, {}, move))
-        if made is not None and fits(made) and not _alike(model, made):
-            base, moved = made, move
-            break
-    turned, remade = _measured(base, seed, fits, attempts)
+    search = _Search(model)
+    moved = search.moved(Dice(seed, 1))
+    base = model if moved is None else _lettered(model, {}, {}, {}, moved)
+    turned, remade = _measured(base, seed, search, moved)
     names = parameter_letters(turned, Dice(seed, 3))
-    dice = Dice(seed, 4)
-    values = {p.name: new_value(p, dice) for p in turned.parameters}
+    values = new_values(turned, Dice(seed, 4))
     found = _lettered(turned, names, values, {}, None)
-    changes = [moved.what] if moved is not None else []
+    changes = moved.what.split("; ") if moved is not None else []
     changes += [r.what for r in remade if r.what]
     changes.append("other letters and values")
-    return SystemVariant(_named(found, f"{_title(model.name)}, variant {seed}"), tuple(changes), moved is not None)
+    named = _named(found, f"{_title(model.name)}, variant {seed}")
+    return SystemVariant(named, tuple(changes), moved is not None, "" if moved is not None else search.reason())
+
+
+class _Search:
+    """Looks for other places of elements, and counts why some are refused."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.size, self.undrawn = _size(model), _undrawn(model)
+        self.used, self.alone, self.doubled = _letters(model), _alone(model), _doubled(model)
+        self.attempts = ATTEMPTS if self.size <= LONG else 1
+        self.refused: Counter[str] = Counter()
+        self.tried = 0
+
+    def fits(self, made: Model | None) -> bool:
+        """Whether a system may be a variant; counts why not."""
+        if made is None:
+            why = "cannot be derived"
+        elif (
+            not SMALLEST * self.size <= _size(made) <= LARGEST * self.size
+            or not self.used <= _letters(made)
+            or _alone(made) > self.alone
+            or _doubled(made) > self.doubled
+        ):
+            why = "changes the difficulty"
+        elif _undrawn(made) > self.undrawn:
+            why = "cannot be drawn"
+        else:
+            return True
+        self.refused[why] += 1
+        return False
+
+    def moved(self, dice: Dice) -> Moved | None:
+        """What is attached elsewhere or acts the other way round: one thing, or two; None if nothing can be."""
+        places, sides = dice.shuffled(moves(self.model)), dice.shuffled(turns(self.model))
+        chosen = self._first(places) or self._first(sides)
+        if chosen is None or self.attempts == 1 or not dice.chance(0.6):
+            return chosen
+        more = [both(self.model, chosen, other) for other in dice.shuffled([*places, *sides]) if other is not chosen]
+        return self._first([m for m in more if m is not None][:2]) or chosen
+
+    def _first(self, options: Sequence[Moved]) -> Moved | None:
+        self.refused["makes a description untrue"] += sum(m.described is None for m in options)
+        self.tried += len(options)
+        for move in [m for m in options if m.described is not None][: self.attempts]:
+            made = _tried(lambda move=move: _lettered(self.model, {}, {}, {}, move))
+            if not self.fits(made):
+                continue
+            if made is not None and not _alike(self.model, made):
+                return move
+            self.refused["leaves the equations as they are"] += 1
+        return None
+
+    def reason(self) -> str:
+        """Why nothing is attached elsewhere."""
+        if not any(isinstance(e, MOVABLE) for e in self.model.elements):
+            return "it has no force, torque, spring or damper that could be elsewhere"
+        why = [what for what, count in self.refused.items() if count]
+        if not why:
+            return "its forces, torques, springs and dampers can be attached nowhere else"
+        tried = "the only other attachment" if self.tried == 1 else f"each of {self.tried} other attachments"
+        return f"{tried} {' or '.join(why)}"
+
+
+def _alone(model: Model) -> int:
+    """The number of coordinates that nothing but their own inertia concerns, no spring, force, gravity or neighbour."""
+    names = {n for e in model.elements if isinstance(e, (*MOVABLE, Gravity)) for n in letters_of(e)}
+    said = {x.symbol for x in (*model.parameters, *model.inputs) if x.name in names}
+    own = {c.symbol for c in model.coordinates}
+    found = [bounded.letters(e.lhs) | bounded.letters(e.rhs) for e in derive(model).equations]
+    return sum(not letters & said and len(letters & own) == 1 for letters in found)
+
+
+def _doubled(model: Model) -> int:
+    """The number of pairs of inputs that act at the same place, so that one of them would be enough."""
+    sides = [e.lhs - e.rhs for e in derive(model).equations]  # type: ignore[operator]
+    rows = [[bounded.diff(side, u.symbol) for side in sides] for u in model.inputs]
+    return sum(
+        any(all(bounded.expand(a + sign * b) == 0 for a, b in zip(one, other, strict=True)) for sign in (1, -1))
+        for one, other in combinations(rows, 2)
+    )
+
+
+def _letters(model: Model) -> set[Any]:
+    """The parameters and inputs in the equations."""
+    found = {s for e in derive(model).equations for side in (e.lhs, e.rhs) for s in bounded.letters(side)}
+    return found & {x.symbol for x in (*model.parameters, *model.inputs)}
 
 
 def _title(name: str) -> str:
@@ -87,14 +167,15 @@ def _title(name: str) -> str:
     return ", ".join(kept) or name
 
 
-def _measured(model: Model, seed: int, fits: Any, attempts: int) -> tuple[Model, list[Remeasured]]:
-    """The model in other coordinates, at least in other names."""
-    for attempt in range(attempts):
+def _measured(model: Model, seed: int, search: _Search, moved: Moved | None) -> tuple[Model, list[Remeasured]]:
+    """The model in other coordinates, at least in other names; in as many as possible if nothing has moved."""
+    sprung = moved is not None and any(isinstance(e, Spring) for e in moved.elements.values())
+    for attempt in range(search.attempts):
         dice = Dice(seed, 2, attempt)
         names = coordinate_letters(model, dice)
-        remade = remeasured(model, names, dice)
+        remade = remeasured(model, names, dice, keen=moved is None and attempt < 2, sprung=sprung)
         made = _tried(lambda r=remade: _in_coordinates(model, r))
-        if made is not None and fits(made):
+        if made is not None and search.fits(made):
             return made, remade
     names = coordinate_letters(model, Dice(seed, 2, 0))
     plainly = [
@@ -176,40 +257,33 @@ class _Letterer(Carrier):
     ) -> None:
         super().__init__(model, change, model.name)
         self.names, self.values, self.words, self.said = names, values, words, said
-        self.moved = moved.elements if moved is not None else {}
-        self.told = moved.described if moved is not None else {}
-        self._vague = {n for e in model.elements if id(e) in self.moved for n in _letters_of(e)}
+        self.moved = moved or Moved({}, "")
+        self.now = {p.symbol: new for p in model.parameters if (new := values.get(p.name, p.value)) is not None}
 
     def declare(self) -> None:
         """Declare everything under its new name, with its new value."""
         for c in self.model.coordinates:
-            words = self.words.get(c.name, c.description)
-            self.builder.coordinate(
-                c.name,
-                description=relabelled(words, self.said, other_values=bool(self.names)),
-                unit=c.unit,
-                positive=c.positive,
-            )
+            words = self._described(c, self.words.get(c.name, c.description))
+            self.builder.coordinate(c.name, description=words, unit=c.unit, positive=c.positive)
         for p in self.model.parameters:
-            value = self.values.get(p.name, p.value)
-            name = self.names.get(p.name, p.name)
-            self.builder.parameter(name, value, unit=p.unit, description=self._described(p))
+            unit, value = self.moved.units.get(p.name, (p.unit, self.values.get(p.name, p.value)))
+            words = self._described(p, p.description)
+            self.builder.parameter(self.names.get(p.name, p.name), value, unit=unit, description=words)
         for u in self.model.inputs:
             name = self.names.get(u.name, u.name)
-            self.builder.input(name, description=self._described(u), unit=u.unit)
+            self.builder.input(name, description=self._described(u, u.description), unit=u.unit)
 
-    def _described(self, symbol: Any) -> str:
-        """The description in the new letters, without the parts that name a place that something has left."""
-        if symbol.name in self.told:
-            return self.told[symbol.name]
-        if symbol.name in self._vague:
-            return ""
-        return relabelled(symbol.description, self.said, other_values=bool(self.names))
+    def _described(self, symbol: Any, words: str) -> str:
+        """The description in the new letters, without what has become untrue of places and values."""
+        words = (self.moved.described or {}).get(symbol.name, words)
+        words = still_true(self.model, symbol if isinstance(symbol, Parameter) else None, words, self.now)
+        return relabelled(words, self.said)
 
     def elements(self, element: Element) -> Iterator[Element]:
         """The element at its new place; one that is named after its letter has the new letter's name."""
-        for made in super().elements(self.moved.get(id(element), element)):
-            if id(element) in self.moved and made.kind not in made.name and made.name.isalpha() and len(made.name) > 2:
+        gone = id(element) in self.moved.elements and id(element) not in self.moved.turned
+        for made in super().elements(self.moved.elements.get(id(element), element)):
+            if gone and made.name != made.kind and named_by_words(self.model, element):
                 made = made.named("")  # a name such as "table" tells its old place
             yield made.named(self.names[made.name]) if made.name in self.names else made
 
@@ -219,17 +293,6 @@ class _Letterer(Carrier):
         said = set(re.findall(r"\w+", str(dict(self.model.look))))
         if not said & {old for old, new in self.names.items() if old != new}:
             self.builder.look.update(self.model.look)
-
-
-def _letters_of(element: Element) -> set[str]:
-    """The parameters and inputs of an element that has moved, whose descriptions may name its old place."""
-    values = [getattr(element, key, None) for key in ("k", "b", "value")]
-    listed = [x for v in values for x in (v if isinstance(v, tuple) else (v,)) if isinstance(x, sp.Expr)]
-    return {getattr(s, "name", None) or s.func.__name__ for x in listed for s in _symbols(x)}
-
-
-def _symbols(expr: sp.Expr) -> set[Any]:
-    return expr.free_symbols | expr.atoms(sp.core.function.AppliedUndef)
 
 
 def _lettered(

@@ -33,6 +33,7 @@ from lagrangian.write.expression_tree import (
     Math,
     Number,
     Tagged,
+    fenced,
     is_tall,
     tokens,
 )
@@ -369,7 +370,7 @@ def _terms(side: Math, kinds: list[str]) -> str:
     for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
         form = "infix" if i else "prefix"
         sign = f'<mo form="{form}">{"−" if minus else "+"}</mo>' if i or minus else ""
-        inner = _breaking(sign, term)
+        inner = _breaking(sign, fenced(term, Addition) if minus else term)
         if isinstance(term, Tagged) and term.elements:
             kind = term.kind if term.kind in KINDS else "other"
             if kind not in kinds:
