@@ -9,7 +9,7 @@ from lagrangian.check.reading.applied import with_functions_applied, with_slopes
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import LATEX
-from lagrangian.check.reading.copied import without_copying, without_proved
+from lagrangian.check.reading.copied import without_copying, without_leaders, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.declared_slopes import with_declared_slopes
 from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
@@ -92,6 +92,7 @@ from lagrangian.check.reading.said.virtual_velocities import with_virtual_veloci
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
 from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.starred import with_starred_names
+from lagrangian.check.reading.thousands import with_whole_numbers
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.unit_checks import without_unit_checks, without_units_of_numbers
 from lagrangian.quantities.source import Source
@@ -131,9 +132,10 @@ _ROUND_BY_TIME = re.compile(
 """A rate with round signs: ∂²x/∂t²."""
 
 
-def _copied(text: str) -> TracedText:
+def _copied(text: str, notes: dict[str, None]) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
-    plain = without_intervals(without_copying(without_proved(without_star_math(TracedText(text)))))
+    plain = without_copying(without_leaders(without_proved(without_star_math(TracedText(text)))))
+    plain = with_whole_numbers(without_intervals(plain), notes)
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))
     return with_drawn_pieces(with_tall_brackets(plain))
@@ -209,7 +211,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text)
+    copied = _copied(text, names.notes)
     if not LATEX.search(text):
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)

@@ -50,7 +50,7 @@ _SYSTEM = re.compile(
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
 _STYLE = re.compile(r"\\(?:display|text|script)style(?![A-Za-z])")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
-_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
+_BOXED = re.compile(r"\\(?:A?boxed|fbox|tcbhighmath|tcboxmath|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
 """What stands around a result; a line below one name is a part of the name."""
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
 _SHORT = re.compile(r"\w{1,20}\Z")
@@ -93,6 +93,9 @@ _TAG_BEFORE = re.compile(
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
+_GAP_AT_END = re.compile(r"(?:\\[,;:!>\s]|\\q?quad|[\s~,]|\\)\Z")
+_FAR_GAP = 8
+"""The most characters of one piece of spacing."""
 _FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
 _ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")
 _BOUND = re.compile(
@@ -336,13 +339,21 @@ def _content(piece: str) -> bool:
 
 def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
     """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
-    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
+    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(_without_gap(before.replace("&", " "))):
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False
     if hard and _AT_MARK.match(piece) and _WORK_BEFORE.match(before):
         return True
     return ("=" in before) != ("=" in piece)
+
+
+def _without_gap(text: str) -> str:
+    r"""The text without commas and spacing at its end: = b\\, \\\\ ends a row, = \\; \\\\ does not."""
+    end = len(text)
+    while (gap := _GAP_AT_END.search(text, max(0, end - _FAR_GAP), end)) is not None:
+        end = gap.start()
+    return text[:end]
 
 
 def _tidy(row: AnswerRow) -> AnswerRow:
