@@ -84,7 +84,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_stated_values,
     with_variations,
 )
-from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.subscripts import with_index_behind_comma, with_index_of_time
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.said.turned_by import with_turned_bodies
@@ -211,7 +211,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = _copied(text, names.notes)
+    copied = with_index_behind_comma(_copied(text, names.notes), names.changes)
     if not LATEX.search(text):
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
