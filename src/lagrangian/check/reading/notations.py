@@ -41,6 +41,7 @@ from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
+from lagrangian.check.reading.programs.braced_lists import with_braced_lists
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.mathematica_tables import with_tables_written_out
@@ -230,6 +231,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
+        session = with_braced_lists(session)
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
     relaxed = without_legend(without_references(with_index_of_time(session, lambda name: key(name) in moving, taken)))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
