@@ -63,6 +63,19 @@ def without_proved(written: TracedText) -> TracedText:
     return written.sub(_PROVED, lambda m: "")
 
 
+_TYPED_ARRAY = re.compile(r"\\(?:(?P<matrix>[bp]?matrix)|eqarray)[ ]{0,3}(?=\()")
+"""A matrix or equations as they are typed in Word's equation editor."""
+
+
+def with_typed_arrays(written: TracedText) -> TracedText:
+    """Return an answer with the signs of Word's equation editor for matrices that are typed as words, if these are its
+    only commands."""
+    text = written.text
+    if "\\" not in text or len(_TYPED_ARRAY.findall(text)) != text.count("\\"):
+        return written
+    return written.sub(_TYPED_ARRAY, lambda m: "■" if m["matrix"] else "█")
+
+
 def without_copying(written: TracedText) -> TracedText:
     """Return an answer in which these marks are as they were before it was copied."""
     if "\\" not in written.text:

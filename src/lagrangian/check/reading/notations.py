@@ -9,7 +9,7 @@ from lagrangian.check.reading.applied import with_functions_applied, with_slopes
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import LATEX
-from lagrangian.check.reading.copied import without_copying, without_leaders, without_proved
+from lagrangian.check.reading.copied import with_typed_arrays, without_copying, without_leaders, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.declared_slopes import with_declared_slopes
 from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
@@ -135,7 +135,7 @@ _ROUND_BY_TIME = re.compile(
 
 def _copied(text: str, notes: dict[str, None]) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
-    plain = without_copying(without_leaders(without_proved(without_star_math(TracedText(text)))))
+    plain = without_copying(with_typed_arrays(without_leaders(without_proved(without_star_math(TracedText(text))))))
     plain = with_whole_numbers(without_intervals(plain), notes)
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))
