@@ -21,7 +21,7 @@ MOST, DEEPEST = 100, 6
 """The most lists and calls of an answer that are looked at, and how deep calls stand in each other."""
 
 _MATRIX = re.compile(r"\{\s*\{[^{}=]{1,400}\}\s*,\s*\{")
-_PRODUCT = re.compile(r"[}\]]\s*\.\s*[\w{(]|[\w)\]]\s*\.\s*\{|\bDot\[|\bLinearSolve\[|\bInverse\[")
+_PRODUCT = re.compile(r"[}\]]\s*\.\s*[\w{(]|[\w)\]]\s*\.\s*\{|\b(?:Dot|Det)\[|\bLinearSolve\[|\bInverse\[")
 _LIST = re.compile(r"(?<![\w^\]\\])(?<!_)\{(?![{}\s]*\})")
 _RULE = re.compile(r"→|[=<>]")
 _CALL = re.compile(rf"(?<![\w\\])(?P<name>{IDENT})\[")
@@ -106,7 +106,7 @@ def _is_within_call(text: str, at: int) -> bool:
             stack.append(match["name"] or "")
         elif stack:
             stack.pop()
-    return any(x not in ("LinearSolve", "Inverse") for x in stack)
+    return any(x not in ("LinearSolve", "Inverse", "Det") for x in stack)
 
 
 def _solved(text: str) -> Iterator[Edit]:
