@@ -66,6 +66,7 @@ from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.subjects import MULTIPLIERS
 from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.wrapped_lines import has_cut_lines, with_lines_joined
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
@@ -236,6 +237,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     _set_dependents(lines.names, text, written)
     words = _words(lines, text)
     _choose(reading, words, lines, given)
+    cut = not latex and has_cut_lines(text, words)
+    text = with_lines_joined(text, words, below=reading.wrapped == "below") if reading.wrapped else text
     source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
@@ -243,7 +246,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     if reading == LIKELIEST:
-        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
+        beside = bool(remarks.lines)
+        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=beside, wrapped=cut)
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)

@@ -1,0 +1,83 @@
+"""Joins the lines of an equation that was cut anywhere, as copying from a page and windows of mail do.
+
+L²                                    L² (⅔ m + M cos² α) α'' − k L sin α = 0
+(⅔ m + M cos² α) α''
+− k L sin α = 0
+
+A line without an equals sign belongs to the one below it, or to the one above it: both are readings that are possible
+where no sign at an end says that a line goes on.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from lagrangian.check.reading.plain.ends import incomplete
+from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.prose.words_or_mathematics import is_sentence
+
+MOST, LONGEST = 200, 2_000
+"""The most lines of an answer, and the most characters of one, that are looked at."""
+
+_BEGINS = re.compile(r"\s*(?:[-+*/^=·×−–)\]]|#|%|//|[>|]|\w{1,12}[ ]?:)")
+"""What goes on above, or begins something else."""
+_MINUS = frozenset("-−–")
+"""What begins a line that goes on, or another one."""
+_EQUALS = re.compile(r"(?<![<>!:])=(?!>)")
+_MATHEMATICS = re.compile(r"[\w)\]]")
+
+
+def has_cut_lines(text: str, words: Words) -> bool:
+    """Whether a line without an equals sign stands beside others of an equation, and nothing says which go on."""
+    lines = text.split("\n")
+    if len(lines) > MOST or not any("=" in line for line in lines):
+        return False
+    blocks = [block for block in _blocks(lines, words) if any(map(_EQUALS.search, block))]
+    return any(_is_cut(above, line) for block in blocks for above, line in pairwise(block))
+
+
+def _is_cut(above: str, line: str) -> bool:
+    stated = sum(_EQUALS.search(x) is not None for x in (above, line))
+    goes_on = _BEGINS.match(line)
+    minus = stated == 0 and goes_on is not None and goes_on.group().strip() in _MINUS
+    return stated < 2 and not incomplete(above) and (goes_on is None or minus)
+
+
+def _is_mathematics(line: str, words: Words) -> bool:
+    """Whether a line is part of an equation, and neither blank nor a sentence."""
+    if not line.strip() or len(line) > LONGEST or _MATHEMATICS.search(line) is None:
+        return False
+    return not is_sentence(line, words) and not (line.rstrip().endswith(":") and "=" not in line)
+
+
+def with_lines_joined(text: str, words: Words, *, below: bool) -> str:
+    """Return an answer in which a line without an equals sign goes on in the line ``below`` it, or else in the one
+    above it; places stay."""
+    joined = list[str]()
+    for block in _blocks(text.split("\n"), words):
+        stated = [_EQUALS.search(line) is not None for line in block]
+        has_sign = stated[0]
+        joined.append(block[0])
+        for k in range(1, len(block)):
+            goes_on = not any(stated[k:]) if below else not stated[k]
+            joined.append(f"{' ' if goes_on or not has_sign else chr(10)}{block[k]}")
+            has_sign = stated[k] or (has_sign and goes_on)
+        joined.append("\n")
+    return "".join(joined[:-1])
+
+
+def _blocks(lines: Sequence[str], words: Words) -> Iterator[list[str]]:
+    """The lines of mathematics that follow each other, together, and each other line alone."""
+    block: list[str] = []
+    for line in lines:
+        if _is_mathematics(line, words):
+            block.append(line)
+            continue
+        if block:
+            yield block
+        block = []
+        yield [line]
+    if block:
+        yield block
