@@ -22,6 +22,7 @@ from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.finite_sums import with_sums_written_out
 from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
@@ -213,6 +214,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
     copied = with_index_behind_comma(_copied(text, names.notes), names.changes)
+    copied = with_sums_written_out(copied, taken)
     if not LATEX.search(text):
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
