@@ -32,7 +32,8 @@ _SIGN = re.compile(
 _SIZE = re.compile(r"\\(?:right|[bB]igg?[lrm]?)[ ]?\Z")
 _OPERATOR = re.compile(r"(?:\A|[*/^·=(_])\s*\Z")
 _INDEXED = r"(?P<stem>\\?[^\W\d_]+)(?:_\{{?[ ]?{0}[ ]?\}}?(?![A-Za-z0-9])|{1})"
-_ALONE = r"(?<![\w\\]){0}(?![\w])"
+_ALONE = r"(?<![\w\\]){0}(?![\w])|_(?:\{{[^{{}}]{{0,20}}?{0}[^A-Za-z]|\w{{0,8}}{0}(?![A-Za-z]))"
+"""The letter of an index as a number, or in an index with other letters."""
 _SMALL = {"i": "ᵢ", "j": "ⱼ"}
 
 
@@ -55,7 +56,8 @@ def _written_out(text: str, match: re.Match[str], taken: Callable[[str], bool]) 
     term = text[match.end() : end].strip()
     form = re.compile(_INDEXED.format(letter, _SMALL.get(letter, "(?!)")))
     stems = {m["stem"] for m in form.finditer(term)}
-    if not stems or len(term) > LONGEST or re.search(_ALONE.format(letter), form.sub("", term)) is not None:
+    rest = form.sub("", term)
+    if not stems or len(term) > LONGEST or re.search(_ALONE.format(letter), rest) is not None:
         return None
     given = [{k for k in range(1, MOST_TERMS + 1) if _is_given(f"{x}_{k}", text, taken)} for x in stems]
     numbers = _numbers(match)

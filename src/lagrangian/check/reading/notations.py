@@ -27,6 +27,7 @@ from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
+from lagrangian.check.reading.index_form import with_index_form
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.numbers_with_units import with_siunitx
@@ -214,10 +215,11 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
     copied = with_index_behind_comma(_copied(text, names.notes), names.changes)
-    copied = with_sums_written_out(copied, taken)
+    copied = with_sums_written_out(with_index_form(copied, latex="\\" in text or "$" in text), taken)
     if not LATEX.search(text):
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
-    copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
+    coordinates, typeset = [c.name for c in lines.model.coordinates], "\\" in text or "$" in text
+    copied = with_general_form(copied, coordinates, taken, names.notes, latex=typeset)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
