@@ -25,7 +25,7 @@ MOST = 6
 _TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]{1,2000}\|[ \t]*+(?:\n|\Z)){2,40}", re.MULTILINE)
 _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|){1,9}[ \t]*")
 _INDEX = r"_?\{?[1-6₁-₆]{1,2}\}?"
-_NAMED_INDEX = r"_(?:\{[^{}\n=]{1,24}\}|[^\W\d]{1,12})"
+_NAMED_INDEX = r"_(?:\{[^{}\n=]{1,24}\}|\\[A-Za-z]{2,12}|[^\W\d]{1,12})"
 """An index that names coordinates: M_xφ, M_{\\theta s}."""
 _ENTRY = rf"[A-Za-z]{_INDEX}"
 _ENTRIES = re.compile(rf"{_ENTRY}(?:[ \t]*+=[ \t]*+{_ENTRY}){{0,3}}")

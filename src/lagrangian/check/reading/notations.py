@@ -93,6 +93,7 @@ from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.said.turned_by import with_turned_bodies
 from lagrangian.check.reading.said.virtual_velocities import with_virtual_velocities
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
+from lagrangian.check.reading.spoken_matrices import with_spoken_matrices
 from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.thousands import with_whole_numbers
@@ -217,6 +218,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     copied = with_index_behind_comma(_copied(text, names.notes), names.changes)
     copied = with_sums_written_out(with_index_form(copied, latex="\\" in text or "$" in text), taken)
     if not LATEX.search(text):
+        copied = with_spoken_matrices(copied)
         copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
     coordinates, typeset = [c.name for c in lines.model.coordinates], "\\" in text or "$" in text
     copied = with_general_form(copied, coordinates, taken, names.notes, latex=typeset)
