@@ -250,7 +250,7 @@ def _putting(
 ) -> Verdict:
     valued, values = truth.with_values(dict(put)), dict(put)
     lines, told = with_prescribed_unrounded(valued, lines)
-    read = _with_values(values, spelled(valued, _filled(valued, lines), numbers=False))
+    read = _with_values(truth, values, spelled(valued, _filled(valued, lines), numbers=False))
     return _read(valued, replace(read, notes=(*read.notes, *told)), hint, explain=explain)
 
 
@@ -344,10 +344,15 @@ def _tells(lines: Sequence[AnsweredLine]) -> bool:
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
 
 
-def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
-    """The verdict on an answer with numbers: the values of the parameters are substituted."""
-    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
-    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are substituted.")))
+def _with_values(truth: Reference, values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
+    """The verdict on an answer with numbers: the values of the parameters that its equations and energies have are
+    substituted, as a note tells."""
+    energies = [expr for kind, expr in truth.energies.items() if any(x.kind == kind for x in spelling.lines)]
+    used = set[sp.Basic]().union(*(expr.free_symbols for expr in (*truth.rows, *energies)))
+    symbols = [p for p in sorted(values, key=str) if p in used] or sorted(values, key=str)
+    named = [x for p in symbols for x in (p, ", ")][:-1]
+    note = ("The value of ", *named, " is substituted.") if len(symbols) == 1 else ("The values of ", *named, " are substituted.")
+    return replace(spelling, notes=(*spelling.notes, text(*note)))
 
 
 def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:

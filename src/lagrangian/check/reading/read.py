@@ -60,7 +60,7 @@ from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
-from lagrangian.check.reading.set_aside import once
+from lagrangian.check.reading.set_aside import once, without_names_of_rates
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -250,7 +250,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=beside, wrapped=cut)
     marked = partial(places_of_marks, rows, source, written, words)
     try:
-        made = lines.read(statements, errors)
+        made = without_names_of_rates(lines.read(statements, errors))
     finally:
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     check_number(rows if _states_anything(made, lines) else [], source, written)

@@ -71,3 +71,10 @@ def _line(error: ParseError) -> int:
 
 def _at(place: Place | None) -> tuple[int, int]:
     return (0, 0) if place is None else (place.line or 0, place.column or 0)
+
+
+def without_names_of_rates(lines: Sequence[AnswerLine]) -> tuple[AnswerLine, ...]:
+    """The lines without those that only say how a rate is called, xp = x Punkt, which say x' = x' when they are read;
+    all of them if there are no others."""
+    found = tuple(x for x in lines if not (isinstance(x.lhs, sp.Derivative) and x.lhs == x.rhs))
+    return found or tuple(lines)
