@@ -351,7 +351,11 @@ def _with_values(truth: Reference, values: Mapping[sp.Symbol, sp.Expr], spelling
     used = set[sp.Basic]().union(*(expr.free_symbols for expr in (*truth.rows, *energies)))
     symbols = [p for p in sorted(values, key=str) if p in used] or sorted(values, key=str)
     named = [x for p in symbols for x in (p, ", ")][:-1]
-    note = ("The value of ", *named, " is substituted.") if len(symbols) == 1 else ("The values of ", *named, " are substituted.")
+    note = (
+        ("The value of ", *named, " is substituted.")
+        if len(symbols) == 1
+        else ("The values of ", *named, " are substituted.")
+    )
     return replace(spelling, notes=(*spelling.notes, text(*note)))
 
 

@@ -122,7 +122,12 @@ _ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
 
 
 def with_general_form(
-    written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool], notes: dict[str, None], *, latex: bool
+    written: TracedText,
+    coordinates: Sequence[str],
+    taken: Callable[[str], bool],
+    notes: dict[str, None],
+    *,
+    latex: bool,
 ) -> TracedText:
     """Return an answer with this form in the entries that it gives, one for each of the ``coordinates`` in a column, of
     which none is ``taken`` by the system; only if it gives all of them."""

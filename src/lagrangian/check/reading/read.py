@@ -245,12 +245,14 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     check_number(rows, source, written)
     parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
+    if reading.wrapped and (unread := [*errors, *lines.failed, *lines.remarks]):
+        raise unread[0]  # what is wrong may be in a line that cannot be read only together with another
     if reading == LIKELIEST:
         beside = bool(remarks.lines)
         others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=beside, wrapped=cut)
     marked = partial(places_of_marks, rows, source, written, words)
     try:
-        made = without_names_of_rates(lines.read(statements, errors))
+        made = without_names_of_rates(lines.read(statements, errors), given)
     finally:
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     check_number(rows if _states_anything(made, lines) else [], source, written)

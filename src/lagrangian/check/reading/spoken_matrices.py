@@ -20,7 +20,8 @@ MOST, MOST_ROWS, FAR = 20, 6, 160
 """The most lists of rows, rows of one, and characters of words between them and a column."""
 
 _FIRST = re.compile(
-    r"(?:(?P<name>(?<![\\w.])[A-Z]\w{0,3}(?:\([^()\n]{1,12}\))?[ \t]*=)|\brows?\b[^\[\]=\n]{0,40}:|\bZeilen?\b[^\[\]=\n]{0,40}:"
+    r"(?:(?P<name>(?<![\\w.])[A-Z]\w{0,3}(?:\([^()\n]{1,12}\))?[ \t]*=)|\brows?\b[^\[\]=\n]{0,40}:"
+    r"|\bZeilen?\b[^\[\]=\n]{0,40}:"
     r"|\bmatrix\b[^\[\]=\n]{0,60}:)\s*(?=\[)",
     re.IGNORECASE,
 )
@@ -28,8 +29,8 @@ _FIRST = re.compile(
 _NEXT = re.compile(r"\s*(?:[,;]|and|und)?\s*(?:(?:row[ ])?\d[.:)]\s*)?(?=\[)")
 _WORDS = r"(?:[^\[\](){}=\n]|\n(?![ \t]*\n)|\((?=[^()]{0,20}[a-z]{3})[^()\n]{1,40}\)){0,160}?"
 _MULTIPLIES = re.compile(
-    rf"{_WORDS}\b(?:multipl(?:ies|ied[ ]by|ying)|times|acts?[ ]on|applied[ ]to|multipliziert(?:[ ]mit)?|mal|with[ ]the"
-    rf"[ ]column|and[ ]the[ ]column)\b{_WORDS}(?=[(\[])",
+    rf"{_WORDS}\b(?:multipl(?:ies|ied[ ]by|ying)|times|acts?[ ]on|applied[ ]to|multipliziert(?:[ ]mit)?|mal"
+    rf"|with[ ]the[ ]column|and[ ]the[ ]column)\b{_WORDS}(?=[(\[])",
     re.IGNORECASE,
 )
 _EQUALS = re.compile(

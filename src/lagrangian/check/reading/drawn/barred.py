@@ -18,7 +18,10 @@ MOST, LONGEST = 2_000, 1_000
 """The most lines of an answer, and the most characters of a line, that are looked at."""
 
 _LEAD = re.compile(r"\s*+(?:[^\W\d][\w ()^']{0,30}=)?\s*+\Z")
-_GAP = re.compile(r"(?:[\s=+*·×@−-]*+|\s*+[.•∙⋅∘◦]\s*+|\s++x\s++|\s{2,}+[^\W\d]\w{0,15}[ \t]*+=\s*+|\s*+[,;]\s*+[^\W\d]\w{0,15}[ \t]*+=\s*+)\Z")
+_GAP = re.compile(
+    r"(?:[\s=+*·×@−-]*+|\s*+[.•∙⋅∘◦]\s*+|\s++x\s++"
+    r"|\s{2,}+[^\W\d]\w{0,15}[ \t]*+=\s*+|\s*+[,;]\s*+[^\W\d]\w{0,15}[ \t]*+=\s*+)\Z"
+)
 """What stands between matrices: signs, or the name of another one behind a gap."""
 _DOT = re.compile(r"\s*+(?P<dot>[.•∙⋅∘◦x])\s*+")
 """A sign of products that is no other sign where it stands alone."""

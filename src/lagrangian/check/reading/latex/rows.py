@@ -50,7 +50,9 @@ _SYSTEM = re.compile(
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
 _STYLE = re.compile(r"\\(?:display|text|script)style(?![A-Za-z])")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
-_BOXED = re.compile(r"\\(?:A?boxed|fbox|tcbhighmath|tcboxmath|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
+_BOXED = re.compile(
+    r"\\(?:A?boxed|fbox|tcbhighmath|tcboxmath|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{"
+)
 """What stands around a result; a line below one name is a part of the name."""
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
 _SHORT = re.compile(r"\w{1,20}\Z")

@@ -11,7 +11,9 @@ from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
 from lagrangian.read.letters import GREEK
 
-MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "v", "small") for star in ("", "*")) | {"array"}
+MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "v", "small") for star in ("", "*")) | {
+    "array"
+}
 """The environments of matrices."""
 
 DETERMINANT = "det"

@@ -131,7 +131,9 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_headings(without_exercises(_STARRED.sub(lambda m: "T*".ljust(len(m.group())), without_sketches(text, words)), words))
+    text = without_headings(
+        without_exercises(_STARRED.sub(lambda m: "T*".ljust(len(m.group())), without_sketches(text, words)), words)
+    )
     text = with_words_joined(without_combinations(without_conditions(text, words), words), words)
     text = without_directions(without_units(without_dashes(text, words), words), words)
     text = without_remarks(stated_remarks(text), words)

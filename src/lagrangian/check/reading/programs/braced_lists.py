@@ -29,7 +29,8 @@ _SHOWN = frozenset(["Thread", "MatrixForm", "Simplify", "FullSimplify", "Expand"
 _DOT = re.compile(rf"(?:(?<=[)\]}}])|(?<![\w.'\d])(?P<before>{IDENT}))(?P<dot>\s*\.\s*)(?=[\[({{]|(?P<behind>{IDENT}))")
 _NAMED = re.compile(rf"(?:^|(?<=[;\n]))[ \t]*(?P<name>{IDENT})[ \t]*=[ \t]*(?=\[)")
 _SOLVED = re.compile(
-    rf"^[ \t]*(?:{IDENT}[ \t]*=(?!=)[ \t]*)?(?P<left>\[[^=\n]{{1,400}}\]|{IDENT}['’′]{{0,2}}|\([^=\n]{{1,80}}\))[ \t]*={{1,2}}"
+    rf"^[ \t]*(?:{IDENT}[ \t]*=(?!=)[ \t]*)?"
+    rf"(?P<left>\[[^=\n]{{1,400}}\]|{IDENT}['’′]{{0,2}}|\([^=\n]{{1,80}}\))[ \t]*={{1,2}}"
     r"[ \t]*(?P<by>LinearSolve|Inverse)\[",
     re.MULTILINE,
 )
@@ -93,7 +94,9 @@ def _lists(text: str) -> Iterator[Edit]:
         if any(nested) and not all(nested):
             continue
         at = end + 1
-        rows = [", ".join(row[a:b] for a, b in entries_in(row, 1, len(row) - 1)) for row in rows] if all(nested) else rows
+        rows = (
+            [", ".join(row[a:b] for a, b in entries_in(row, 1, len(row) - 1)) for row in rows] if all(nested) else rows
+        )
         yield match.start(), end + 1, " ".join(f"[{'; '.join(rows)}]".split())
 
 

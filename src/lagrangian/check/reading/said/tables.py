@@ -28,7 +28,8 @@ _BEHIND = r"(?:[ ]?[-,:(][^|\n]{0,60}|[ ]of[ ][^|\n]{0,40})?"
 _SIDES = tuple(
     re.compile(rf"(?:the[ ])?(?:{words}){_BEHIND}", re.IGNORECASE)
     for words in (
-        r"left(?:[- ]?hand)?(?:[ ]?sides?)?|l\.?[ ]?h\.?[ ]?s\.?|linke(?:[ ]Seite)?|links|(?:membre[ ]de[ ])?gauche|lado[ ]izquierdo",
+        r"left(?:[- ]?hand)?(?:[ ]?sides?)?|l\.?[ ]?h\.?[ ]?s\.?|linke(?:[ ]Seite)?|links"
+        r"|(?:membre[ ]de[ ])?gauche|lado[ ]izquierdo",
         r"(?:=[ ]?)?(?:right(?:[- ]?hand)?(?:[ ]?sides?)?|r\.?[ ]?h\.?[ ]?s\.?|rechte(?:[ ]Seite)?|rechts"
         r"|(?:membre[ ]de[ ])?droite?|lado[ ]derecho)",
     )
@@ -37,7 +38,8 @@ _SIDES = tuple(
 _EQUALS = re.compile(r"equals?|is|ist|gleich|égale?", re.IGNORECASE)
 _EQUAL = re.compile(
     r"^[ \t]*(?:(?:in|for)[ ](?:every|each|all)[ ]rows?,?[ ])?(?:the[ ])?(?:left|first|second|linke)(?:[- ]?hand)?[ ]?"
-    r"(?:sides?|columns?|Seite|Spalte)?[ ]?(?:=|equals?|is[ ]equal[ ]to|are[ ]equal[ ]to|ist[ ]gleich)[ ]?(?:the[ ]|der[ ])?"
+    r"(?:sides?|columns?|Seite|Spalte)?[ ]?(?:=|equals?|is[ ]equal[ ]to|are[ ]equal[ ]to|ist[ ]gleich)[ ]?"
+    r"(?:the[ ]|der[ ])?"
     r"(?:right|second|third|last|rechten?)(?:[- ]?hand)?[ ]?(?:sides?|columns?|(?:one|two)s?|Seite|Spalte)?"
     r"(?:[ ](?:in|for|of)[^=\n|]{0,40})?[.:]?[ \t]*$",
     re.MULTILINE | re.IGNORECASE,
