@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from lagrangian.check.reading.answer import MarkedRow
@@ -105,7 +105,7 @@ LIKELIEST = Choices()
 
 
 def less_likely(
-    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: bool, wrapped: bool
+    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: Collection[object], wrapped: bool
 ) -> Iterator[Choices]:
     """The other ways in which an answer may be read, as its ``words`` and its ``dots`` behind names leave them open."""
     if dots.open:

@@ -215,13 +215,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     moving = {key(c.name) for c in lines.model.coordinates}
-    copied = with_index_behind_comma(_copied(text, names.notes), names.changes)
-    copied = with_sums_written_out(with_index_form(copied, latex="\\" in text or "$" in text), taken)
-    if not LATEX.search(text):
-        copied = with_spoken_matrices(copied)
-        copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
-    coordinates, typeset = [c.name for c in lines.model.coordinates], "\\" in text or "$" in text
-    copied = with_general_form(copied, coordinates, taken, names.notes, latex=typeset)
+    copied = _with_whole_forms(_copied(text, names.notes), lines, taken, latex="\\" in text or "$" in text)
     dotted = with_dots_above(copied, lambda name: key(name) in moving)
     dotted = dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
@@ -269,6 +263,17 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = sentences_apart(with_named_columns(on_one_line(without_programs(said, names.changes, taken)), taken))
     return with_parts_of_energies(with_places_of_bodies(plain, lines.model, taken), lines.model, taken)
+
+
+def _with_whole_forms(copied: TracedText, lines: Lines, taken: Callable[[str], bool], *, latex: bool) -> TracedText:
+    """An answer with sums over an index, matrices in words and general forms of matrices written out."""
+    names, coordinates = lines.names, [c.name for c in lines.model.coordinates]
+    rated = with_index_form(with_index_behind_comma(copied, names.changes), latex=latex)
+    whole = with_sums_written_out(rated, taken)
+    if not LATEX.search(whole.text):
+        opened = without_elements_behind(with_spoken_matrices(whole), lines.model, taken)
+        whole = _with_factors_apart(opened, taken)
+    return with_general_form(whole, coordinates, taken, names.notes, latex=latex)
 
 
 def _with_factors_apart(copied: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -34,7 +34,8 @@ _MULTIPLIES = re.compile(
     re.IGNORECASE,
 )
 _EQUALS = re.compile(
-    rf"(?:\^T)?(?:{_WORDS}\b(?:equals?|equal[ ]to|gives?|yields?|is|makes|ergibt|gleich|ist)\b{_WORDS}|\s*=\s*)(?=[(\[])",
+    rf"(?:\^T)?(?:{_WORDS}\b(?:equals?|equal[ ]to|gives?|yields?|is|makes|ergibt|gleich|ist)\b{_WORDS}|\s*=\s*)"
+    r"(?=[(\[])",
     re.IGNORECASE,
 )
 _BEHIND = re.compile(r"(?:\^T)?[ \t]*[.;]?")

@@ -17,6 +17,7 @@ from itertools import pairwise
 from lagrangian.check.reading.plain.ends import incomplete
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import is_sentence
+from lagrangian.errors import ParseError
 
 MOST, LONGEST = 200, 2_000
 """The most lines of an answer, and the most characters of one, that are looked at."""
@@ -27,6 +28,20 @@ _MINUS = frozenset("-−–")
 """What begins a line that goes on, or another one."""
 _EQUALS = re.compile(r"(?<![<>!:])=(?!>)")
 _MATHEMATICS = re.compile(r"[\w)\]]")
+
+
+def with_cut_lines(text: str, words: Words, beside: str) -> tuple[str, bool]:
+    """A plain text with its cut lines together with those ``beside`` them, "below" or "above", if they are read so, and
+    whether it may have some."""
+    if not beside:
+        return text, has_cut_lines(text, words)
+    return with_lines_joined(text, words, below=beside == "below"), False
+
+
+def refuse_unread(unread: Sequence[ParseError]) -> None:
+    """Raise the first error of lines that cannot be read: one of them may be wrong."""
+    if unread:
+        raise unread[0]
 
 
 def has_cut_lines(text: str, words: Words) -> bool:

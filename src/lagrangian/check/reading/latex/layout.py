@@ -151,6 +151,19 @@ def without_units(text: str) -> str:
     return _UNITS.sub(plain, text)
 
 
+_GAP_AT_END = re.compile(r"(?:\\[,;:!>\s]|\\q?quad|[\s~,]|\\)\Z")
+_FAR_GAP = 8
+"""The most characters of one piece of spacing."""
+
+
+def without_gap(text: str) -> str:
+    r"""The text without commas and spacing at its end: = b\\, \\\\ ends a row, = \\; \\\\ does not."""
+    end = len(text)
+    while (gap := _GAP_AT_END.search(text, max(0, end - _FAR_GAP), end)) is not None:
+        end = gap.start()
+    return text[:end]
+
+
 def closing(text: str, start: int) -> int:
     """The position after the brace that closes the one that was opened before ``start``."""
     depth, at = 1, start

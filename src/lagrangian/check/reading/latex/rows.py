@@ -7,7 +7,14 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.labels import DIRECTIONS
-from lagrangian.check.reading.latex.layout import closing, remark_end, without_braces, without_end_marks, without_units
+from lagrangian.check.reading.latex.layout import (
+    closing,
+    remark_end,
+    without_braces,
+    without_end_marks,
+    without_gap,
+    without_units,
+)
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.name_patterns import OF_CHAPTER
@@ -19,18 +26,8 @@ from lagrangian.check.reading.prose.directions import is_direction
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _BEHIND = re.compile(r"(?:\s|\\[,;:!]|&)*+(?:[,.;]|\\\\|\\q?quad|\\end|\\\]|\$|\Z)")
 """What stands behind a word of a direction that is no factor."""
-_DISPLAYS = [
-    "equation",
-    "align",
-    "gather",
-    "multline",
-    "eqnarray",
-    "flalign",
-    "alignat",
-    "displaymath",
-    "math",
-    "dmath",
-]
+_DISPLAYS_LISTED = "equation align gather multline eqnarray flalign alignat displaymath math dmath"
+_DISPLAYS = _DISPLAYS_LISTED.split()
 _OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
 _WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
@@ -95,9 +92,6 @@ _TAG_BEFORE = re.compile(
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(rf"\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}}|{OF_CHAPTER})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
-_GAP_AT_END = re.compile(r"(?:\\[,;:!>\s]|\\q?quad|[\s~,]|\\)\Z")
-_FAR_GAP = 8
-"""The most characters of one piece of spacing."""
 _FAR = re.compile(r"(?:&|\\q?quad)(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z]))*+\Z")
 _ROW_END = re.compile(r"(?:\s|~|\\[,;:! ]|[.,;])*+(?:\\\\|\\end\{|\\\]|\$|\Z)")
 _BOUND = re.compile(
@@ -120,7 +114,6 @@ _AT_MARK = re.compile(
 _WORK_BEFORE = re.compile(r"\s*+\\delta\s*+[WA](?![A-Za-z])[^&=]*+=\s*+(?:\{\s?\}\s*+)?&(?!\s*+=)")
 """A row with a minus at the mark behind = in a virtual work above: \\delta W ={}& a\\\\ &- b\\delta x = 0."""
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
-
 
 _PROSE = re.compile(r"[^\W_]*+[^\\=_^*/+{}<>|\n]*+")
 _SENTENCE = re.compile(r"\s*+(?P<said>[^\W\d_][^\\=_^*/+{}<>|\n]{4,300}[.!?])\s++(?=[^\n]*=)")
@@ -152,7 +145,6 @@ def latex_rows(text: str) -> list[AnswerRow]:
 _IF = re.compile(rf"(?<!\w)(?:{'|'.join(sorted(IF))})\s{{1,3}}(?:\$|\\\()\Z", re.IGNORECASE)
 _SINGLE = re.compile(r"\s*\\?[^\W\d]\w*(?:\{\w+\})?\s*=")
 _MOVES = re.compile(r"\\d?dot|['’′]")
-
 
 _LEVEL = re.compile(r"\s*(?P<energy>[TVU]|E_(?:p|\{?(?:\\\w{4,6}\{)?pot\}{0,2}))\s*=\s*0\s*")
 _AT_PLACE = re.compile(
@@ -341,21 +333,13 @@ def _content(piece: str) -> bool:
 
 def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
     """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
-    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(_without_gap(before.replace("&", " "))):
+    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(without_gap(before.replace("&", " "))):
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False
     if hard and _AT_MARK.match(piece) and _WORK_BEFORE.match(before):
         return True
     return ("=" in before) != ("=" in piece)
-
-
-def _without_gap(text: str) -> str:
-    r"""The text without commas and spacing at its end: = b\\, \\\\ ends a row, = \\; \\\\ does not."""
-    end = len(text)
-    while (gap := _GAP_AT_END.search(text, max(0, end - _FAR_GAP), end)) is not None:
-        end = gap.start()
-    return text[:end]
 
 
 def _tidy(row: AnswerRow) -> AnswerRow:
