@@ -348,6 +348,10 @@ def test_cut_lines_hide_no_wrong_line() -> None:
     """A wrong line beside one without an equals sign is judged, whatever can be read of both together."""
     wrong = "x'' = 3 φ''\nof the cart k x"
     assert not accepted(f"{X}\n{PHI}\n{wrong}")
+    T = "1/2 (M + m) x'² + m l x' φ' cos φ + 1/2 m l² φ'²"
+    energies = f"T: {T}\nV: 1/2 k x² + m g l cos φ\nx: {X}\nφ: {PHI}"
+    assert not accepted(energies)
+    assert accepted(energies.replace("+ m g l cos φ", "− m g l cos φ"))
 
 
 def test_a_fraction_drawn_in_the_middle_of_a_line() -> None:

@@ -105,7 +105,7 @@ LIKELIEST = Choices()
 
 
 def less_likely(
-    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: Collection[object], wrapped: bool
+    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: Collection[object], cut: bool
 ) -> Iterator[Choices]:
     """The other ways in which an answer may be read, as its ``words`` and its ``dots`` behind names leave them open."""
     if dots.open:
@@ -124,7 +124,7 @@ def less_likely(
         yield Choices(factored=not words.factored)
     if remarks:
         yield Choices(bare=True)
-    if wrapped:
+    if cut:
         yield from (Choices(wrapped=beside) for beside in ("below", "above"))
 
 

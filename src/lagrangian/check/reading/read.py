@@ -245,9 +245,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     refuse_unread([*errors, *lines.failed, *lines.remarks] if reading.wrapped else [])
     if reading == LIKELIEST:
-        others += less_likely(
-            words, dots, rated=rated and not latex, listed=listing, remarks=remarks.lines, wrapped=cut
-        )
+        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=remarks.lines, cut=cut)
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = without_names_of_rates(lines.read(statements, errors), given)

@@ -3,7 +3,7 @@ r"""Reads large numbers whose digits stand in groups of three.
 40 000 x   40\,000 x   40~000 x        a gap, or in LaTeX a thin space
 40'000 x   40_000*x                    a mark, as it is written in Switzerland and in programs
 40,000 x + 0.5 y   40{,}000 x          a comma, in an answer with decimal points, or in front of zeros alone
-40.000 x + 0,5 y                       a point, in an answer with decimal commas
+40.000 x + 0,5 y                       a point in front of zeros alone, in an answer with decimal commas
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _DECIMAL_COMMA, _DECIMAL_POINT = (
     for sign in (_COMMA, r"\.")
 )
 """What only decimals are: 0,5 and 29,43."""
-_ZEROS = re.compile(rf"\d{{1,3}}(?:{_COMMA}000)+")
+_ZEROS = re.compile(rf"\d{{1,3}}(?:(?:{_COMMA}|\.)000)+(?:{_COMMA}\d{{1,9}})?")
 _SIGNS = re.compile(r"[^\d]")
 _FIRST = re.compile(r"^[ \t]*(?P<number>\d)[ \t](?=\d)", re.MULTILINE)
 """A number at the beginning of a line, in front of another one, which may count the equations."""
@@ -58,7 +58,7 @@ def with_whole_numbers(written: TracedText, notes: dict[str, None]) -> TracedTex
     signed = [x for x in _edits(text, _WITH_COMMA, frozenset(), listed=True) if not comma]
     signed = [x for x in signed if point or _ZEROS.fullmatch(text[x[0] : x[1]])]
     if comma and not point:
-        signed = list(_edits(text, _WITH_POINT, frozenset(), listed=True))
+        signed = [x for x in _edits(text, _WITH_POINT, frozenset(), listed=True) if _ZEROS.fullmatch(text[x[0] : x[1]])]
     notes.update(dict.fromkeys(f"{text[a:b]} was read as {made.strip()}." for a, b, made in signed))
     return written.edited([*edits, *signed])
 

@@ -5,7 +5,8 @@ L²                                    L² (⅔ m + M cos² α) α'' − k L sin
 − k L sin α = 0
 
 A line without an equals sign belongs to the one below it, or to the one above it: both are readings that are possible
-where no sign at an end says that a line goes on.
+where no sign at an end says that a line goes on. Nothing goes on in a line with a label, x: …, and a line with a label
+and without an equals sign says something by itself.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.plain.ends import incomplete
-from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.check.reading.prose.words_or_mathematics import is_sentence
 from lagrangian.errors import ParseError
 
@@ -24,6 +25,7 @@ MOST, LONGEST = 200, 2_000
 
 _BEGINS = re.compile(r"\s*(?:[-+*/^=·×−–)\]]|#|%|//|[>|]|\w{1,12}[ ]?:)")
 """What goes on above, or begins something else."""
+_LONG_NAME = re.compile(r"[^\W\d_]\w{2,}")
 _MINUS = frozenset("-−–")
 """What begins a line that goes on, or another one."""
 _EQUALS = re.compile(r"(?<![<>!:])=(?!>)")
@@ -61,10 +63,14 @@ def _is_cut(above: str, line: str) -> bool:
 
 
 def _is_mathematics(line: str, words: Words) -> bool:
-    """Whether a line is part of an equation, and neither blank nor a sentence."""
+    """Whether a line is part of an equation, and neither blank nor a sentence; one without an equals sign has no words,
+    which are left out where it stands beside others, and no label."""
     if not line.strip() or len(line) > LONGEST or _MATHEMATICS.search(line) is None:
         return False
-    return not is_sentence(line, words) and not (line.rstrip().endswith(":") and "=" not in line)
+    if _EQUALS.search(line) is not None:
+        return not is_sentence(line, words)
+    named = _LONG_NAME.findall(line)
+    return ":" not in line and all(words.readable(x) or words.is_product(x) or function_of(x) for x in named)
 
 
 def with_lines_joined(text: str, words: Words, *, below: bool) -> str:
@@ -88,6 +94,9 @@ def _blocks(lines: Sequence[str], words: Words) -> Iterator[list[str]]:
     block: list[str] = []
     for line in lines:
         if _is_mathematics(line, words):
+            if ":" in line and block:
+                yield block
+                block = []
             block.append(line)
             continue
         if block:
