@@ -69,7 +69,7 @@ def _is_mathematics(line: str, words: Words) -> bool:
         return False
     if _EQUALS.search(line) is not None:
         return not is_sentence(line, words)
-    named = _LONG_NAME.findall(line)
+    named = [x.rstrip("⁰¹²³⁴⁵⁶⁷⁸⁹") for x in _LONG_NAME.findall(line)]
     return ":" not in line and all(words.readable(x) or words.is_product(x) or function_of(x) for x in named)
 
 
