@@ -268,7 +268,9 @@ def _putting(
     valued = truth.with_values(dict(put))
     lines, told = with_prescribed_unrounded(valued, lines)
     read = spelled(valued, _filled(valued, lines), numbers=False)
-    return _read(valued, replace(read, notes=(*read.notes, substituted(dict(put)), *told)), hint, explain=explain)
+    energies = [expr for kind, expr in truth.energies.items() if any(x.kind == kind for x in read.lines)]
+    notes = (*read.notes, substituted(dict(put), [*truth.rows, *energies]), *told)
+    return _read(valued, replace(read, notes=notes), hint, explain=explain)
 
 
 _kept_putting = lru_cache(maxsize=MOST_PUT)(_putting)

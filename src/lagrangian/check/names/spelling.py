@@ -224,10 +224,17 @@ def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Sym
     return values if found > before and 2 * found > count else {}
 
 
-def substituted(values: Iterable[sp.Symbol]) -> Text:
-    """Say of which parameters the values are put in."""
-    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
-    return text("The values of ", *named, " are substituted.")
+def substituted(values: Iterable[sp.Symbol], exprs: Sequence[sp.Expr] = ()) -> Text:
+    """Say of which parameters the values are put in, where some have a place in expressions, of these alone."""
+    used = set[sp.Basic]().union(*(expr.free_symbols for expr in exprs))
+    every = sorted(values, key=str)
+    symbols = [p for p in every if p in used] or every
+    named = [x for p in symbols for x in (p, ", ")][:-1]
+    return (
+        text("The value of ", *named, " is substituted.")
+        if len(symbols) == 1
+        else text("The values of ", *named, " are substituted.")
+    )
 
 
 def _fit(truth: Reference, lines: Sequence[AnsweredLine], values: Mapping[sp.Symbol, sp.Expr]) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -34,7 +34,8 @@ class Choices:
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
     accelerations as the rates of coordinates, a letter d in front of what moves as a factor (``factored``) where a
     constant has this name, whether remarks beside the equations are left out (``bare``), whether
-    ``comments`` with equations of motion are read, whether coordinates that are given in others are ``put`` into
+    ``comments`` with equations of motion are read, whether lines without an equals sign are ``wrapped``, so that they
+    go on in the one "below" or the one "above", whether coordinates that are given in others are ``put`` into
     energies before these are differentiated, whether names with values of time alone are inputs (``driven``), whether
     dots of rates at the ends of lines are full stops (``stops``), and which rows, at the places in ``marks``, are
     without what may be no part of them, in the reading of this number."""
@@ -47,6 +48,7 @@ class Choices:
     factored: bool | None = None
     bare: bool = False
     comments: bool = False
+    wrapped: str = ""
     put: bool | None = None
     driven: bool = False
     stops: bool | None = None
@@ -92,6 +94,8 @@ class Choices:
             yield "What the answer says of coordinates was put into its energies before they were differentiated."
         if self.stops is not None:
             yield f"The dot at the end of a line was read as {'a full stop' if self.stops else 'that of a rate'}."
+        if self.wrapped:
+            yield f"Lines without an equals sign were read together with the line {self.wrapped} them."
         if self.listed is not None:
             of = "that of a list" if self.listed else "a minus"
             yield f"The sign at the beginning of a line was read as {of}."
@@ -102,7 +106,7 @@ LIKELIEST = Choices()
 
 
 def less_likely(
-    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: bool
+    words: Words, dots: DottedText, *, rated: bool, listed: bool | None, remarks: Collection[object], cut: bool
 ) -> Iterator[Choices]:
     """The other ways in which an answer may be read, as its ``words`` and its ``dots`` behind names leave them open."""
     if dots.open:
@@ -121,6 +125,8 @@ def less_likely(
         yield Choices(factored=not words.factored)
     if remarks:
         yield Choices(bare=True)
+    if cut:
+        yield from (Choices(wrapped=beside) for beside in ("below", "above"))
 
 
 def marked_readings(rows: Sequence[MarkedRow], failed: Sequence[ParseError]) -> Iterator[Choices]:

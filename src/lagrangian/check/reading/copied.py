@@ -36,9 +36,45 @@ _PROVED = re.compile(
 """What says at the end of a line that something is proved: q.e.d., w.z.b.w., ∎."""
 
 
+_NUMBERED = re.compile(
+    r"(?<=[\w)\]}'’′²³\u0307\u0308])[ \t]{0,9}(?:(?:\.[ \t]{0,3}){3,160}+|…{1,80}+|[·•∙⋅]{3,160}+"
+    r"|[-–—_](?:[ ]?[-–—_]){2,160}+"
+    r"|\\(?:dotfill|hrulefill|dots|ldots|cdots)(?![A-Za-z])|-{1,2}>|=>|→|⟶|⇒|←|⟵)[ \t]{0,9}"
+    r"(?P<label>[(\[<{][ ]?[\w*†‡#]{1,4}(?:[.-]\w{1,3})?[*'’′]{0,2}[ ]?[)\]>}])[ \t.]{0,9}$",
+    re.MULTILINE,
+)
+"""The number of an equation behind a row of dots, a rule or an arrow: = F ......... (a)."""
+_LEADERS = re.compile(r"(?<=[\w)\]}'’′²³\u0307\u0308])[ \t]{1,9}(?:\.[ \t]{0,3}){4,160}+$", re.MULTILINE)
+"""A row of dots that leads to nothing."""
+
+
+def without_leaders(written: TracedText) -> TracedText:
+    """Return an answer without the dots behind equations and the numbers to which they lead, which are no factors."""
+    text = written.text
+
+    def blank(match: re.Match[str]) -> str:
+        states = "=" in text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
+        return " " * len(match.group()) if states else match.group()
+
+    return written.sub(_NUMBERED, blank).sub(_LEADERS, blank) if "=" in text else written
+
+
 def without_proved(written: TracedText) -> TracedText:
     """Return an answer without q.e.d. and its like, which are no part of the equation in front of them."""
     return written.sub(_PROVED, lambda m: "")
+
+
+_TYPED_ARRAY = re.compile(r"\\(?:(?P<matrix>[bp]?matrix)|eqarray)[ ]{0,3}(?=\()")
+"""A matrix or equations as they are typed in Word's equation editor."""
+
+
+def with_typed_arrays(written: TracedText) -> TracedText:
+    """Return an answer with the signs of Word's equation editor for matrices that are typed as words, if these are its
+    only commands."""
+    text = written.text
+    if "\\" not in text or len(_TYPED_ARRAY.findall(text)) != text.count("\\"):
+        return written
+    return written.sub(_TYPED_ARRAY, lambda m: "■" if m["matrix"] else "█")
 
 
 def without_copying(written: TracedText) -> TracedText:

@@ -3,6 +3,7 @@ r"""The general form of the equations in matrices whose entries, rows or columns
 M(q) q'' + n(q, q') = f(q, q', τ)   with M11 = a, M12 = b, …, n1 = c, … and f = [d; e]
                                     [M11, M12; M21, M22]*q'' + [n1; n2] = f
 Row 1 of M: [a, b]                  M = [a, b; c, d]
+M_xx = a, M_xφ = b, …, n_x = c, …   entries that are named by the coordinates
 | M₁₁ | a |                         M₁₁ = a
 \mathbf{M}(q)\ddot{q} + h(q, \dot q) = 0   with M_{11} = a, …
 """
@@ -15,6 +16,7 @@ from itertools import islice
 
 from lagrangian.check.reading.name_patterns import LOWERED
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.read.letters import GREEK
 from lagrangian.records import dataclass
 
 MOST = 6
@@ -23,6 +25,8 @@ MOST = 6
 _TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]{1,2000}\|[ \t]*+(?:\n|\Z)){2,40}", re.MULTILINE)
 _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|){1,9}[ \t]*")
 _INDEX = r"_?\{?[1-6₁-₆]{1,2}\}?"
+_NAMED_INDEX = r"_(?:\{[^{}\n=]{1,24}\}|\\[A-Za-z]{2,12}|[^\W\d]{1,12})"
+"""An index that names coordinates: M_xφ, M_{\\theta s}."""
 _ENTRY = rf"[A-Za-z]{_INDEX}"
 _ENTRIES = re.compile(rf"{_ENTRY}(?:[ \t]*+=[ \t]*+{_ENTRY}){{0,3}}")
 _ROW = re.compile(
@@ -118,23 +122,29 @@ _ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
 
 
 def with_general_form(
-    written: TracedText, count: int, taken: Callable[[str], bool], notes: dict[str, None], *, latex: bool
+    written: TracedText,
+    coordinates: Sequence[str],
+    taken: Callable[[str], bool],
+    notes: dict[str, None],
+    *,
+    latex: bool,
 ) -> TracedText:
-    """Return an answer with this form in the entries that it gives, ``count`` a column, of which none is ``taken`` by
-    the system; only if it gives all of them."""
-    if not 2 <= count <= MOST or not _ACCELERATION.search(written.text):
+    """Return an answer with this form in the entries that it gives, one for each of the ``coordinates`` in a column, of
+    which none is ``taken`` by the system; only if it gives all of them."""
+    if not 2 <= len(coordinates) <= MOST or not _ACCELERATION.search(written.text):
         return written
     if not latex:
-        written = _with_rows(_with_entries(written), count)
-    form = _Form(written.text, count, taken, latex=latex)
+        written = _with_rows(_with_entries(written), len(coordinates))
+    form = _Form(written.text, coordinates, taken, latex=latex)
     return written.edited(list(form.edits(notes)))
 
 
 class _Form:
     """The general form in an answer, with what the answer gives of its matrices and columns."""
 
-    def __init__(self, text: str, count: int, taken: Callable[[str], bool], *, latex: bool) -> None:
-        self.text, self.count, self.taken, self.latex = text, count, taken, latex
+    def __init__(self, text: str, coordinates: Sequence[str], taken: Callable[[str], bool], *, latex: bool) -> None:
+        self.text, self.count, self.taken, self.latex = text, len(coordinates), taken, latex
+        self.places = _places(coordinates)
         self.notation, self.general, self.part = _FORMS[latex]
         self.symmetric: list[str] = []
         """What is said of entries that only symmetry gives."""
@@ -171,11 +181,10 @@ class _Form:
 
     def _entries(self, name: str) -> dict[str, str]:
         """The entries of a name that an answer gives, as it writes them."""
-        found = {
-            m.translate(LOWERED)
-            for m in re.findall(rf"(?<![\w\\])({name}{_INDEX})[ \t]{{0,9}}{self.notation.equals}(?!=)", self.text)
-        }
-        return {re.sub(r"[_{}]", "", m)[len(name) :]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
+        given = rf"(?<![\w\\])({name}(?:{_INDEX}|{_NAMED_INDEX}))[ \t]{{0,9}}{self.notation.equals}(?!=)"
+        found = {m.translate(LOWERED) for m in re.findall(given, self.text)}
+        entries = {re.sub(r"[_{}]", "", m)[len(name) :]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
+        return {self.places.get(re.sub(r"[\\ ,]", "", place), place): m for place, m in entries.items()}
 
     def _square(self, name: str) -> str | None:
         """A matrix, by its entries, for which small letters may stand, too, or by its name; None if it is not given."""
@@ -203,6 +212,15 @@ class _Form:
         given = rf"(?<![\w\\])(?P<named>{named}){self.notation.of}[ \t]{{0,9}}{self.notation.equals}[ \t\n]{{0,9}}"
         match = re.search(rf"{given}(?:{self.notation.opened})", self.text)
         return None if match is None else match["named"]
+
+
+def _places(coordinates: Sequence[str]) -> dict[str, str]:
+    """The numbers for which names of coordinates stand in an index, of one or two of them."""
+    signs = {word: sign for sign, word in GREEK.items()}
+    spelled = [{name, signs.get(name, name)} for name in coordinates]
+    single = {x: str(k + 1) for k, names in enumerate(spelled) for x in names}
+    pairs = {x + y: single[x] + single[y] for x in single for y in single}
+    return single | {pair: place for pair, place in pairs.items() if pair not in single}
 
 
 def _is_closed(written: str) -> bool:

@@ -27,6 +27,9 @@ from lagrangian.read.letters import key, undotted
 MAX_ENTRIES = 400
 """The largest number of entries of a matrix."""
 
+LARGEST_DETERMINANT = 4
+"""The most rows of a matrix whose determinant is written out."""
+
 
 class Meaning(ExpressionReader):
     """Evaluates the trees of one statement about a ``kind`` of quantity; ``budget`` is shared by the whole answer. An
@@ -375,11 +378,16 @@ class Meaning(ExpressionReader):
                 continue
             if str(node.children[0]) in ("abs", "norm") and found.shape[1] == 1:
                 return sp.sqrt(square(found))
-            if str(node.children[0]) == "abs" and is_square(found):
+            if str(node.children[0]) in ("abs", "det") and is_square(found) and found.shape[0] <= LARGEST_DETERMINANT:
                 self.of_matrix = True
-                return cast("sp.Expr", found.det())  # |M|
+                return self._determinant(found, argument)  # |M|
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
+
+    def _determinant(self, of: MatrixBase, node: Node) -> sp.Expr:
+        value = cast("sp.Expr", of.det(method="berkowitz"))
+        self._spend(value, node)
+        return value
 
 
 def _slope(value: Value, by: sp.Expr) -> Value:

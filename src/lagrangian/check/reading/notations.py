@@ -10,7 +10,7 @@ from lagrangian.check.reading.arguments import with_own_functions, with_primes_a
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.canonical import with_routhian
 from lagrangian.check.reading.characters import LATEX
-from lagrangian.check.reading.copied import without_copying, without_proved
+from lagrangian.check.reading.copied import with_typed_arrays, without_copying, without_leaders, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.declared_slopes import with_declared_slopes
 from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
@@ -28,10 +28,12 @@ from lagrangian.check.reading.entries import (
     with_determinants,
     with_symmetric_entries,
 )
+from lagrangian.check.reading.finite_sums import with_sums_written_out
 from lagrangian.check.reading.forces_by_element import with_forces_by_element
 from lagrangian.check.reading.general_matrices import with_general_form
 from lagrangian.check.reading.gloss_of_rates import without_glosses_of_rates
 from lagrangian.check.reading.hypertext import without_tags
+from lagrangian.check.reading.index_form import with_index_form
 from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.numbers_with_units import with_siunitx
@@ -47,6 +49,7 @@ from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
 from lagrangian.check.reading.primed_constants import with_primed_constants
 from lagrangian.check.reading.programs.anonymous import without_anonymous_functions
+from lagrangian.check.reading.programs.braced_lists import with_braced_lists
 from lagrangian.check.reading.programs.indexed_coordinates import with_indexed_coordinates
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
@@ -93,14 +96,20 @@ from lagrangian.check.reading.said.stands_for import (
     with_stated_values,
     with_variations,
 )
-from lagrangian.check.reading.said.subscripts import with_energies_below, with_index_of_time
+from lagrangian.check.reading.said.subscripts import (
+    with_energies_below,
+    with_index_behind_comma,
+    with_index_of_time,
+)
 from lagrangian.check.reading.said.summed_tables import with_summed_tables
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.said.turned_by import with_turned_bodies
 from lagrangian.check.reading.said.virtual_velocities import with_virtual_velocities
 from lagrangian.check.reading.slopes_with_primes import with_primes_of_slopes
+from lagrangian.check.reading.spoken_matrices import with_spoken_matrices
 from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.starred import with_starred_names
+from lagrangian.check.reading.thousands import with_whole_numbers
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.unit_checks import without_unit_checks, without_units_of_numbers
 from lagrangian.quantities.source import Source
@@ -140,9 +149,10 @@ _ROUND_BY_TIME = re.compile(
 """A rate with round signs: ∂²x/∂t²."""
 
 
-def _copied(text: str) -> TracedText:
+def _copied(text: str, notes: dict[str, None]) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
-    plain = without_intervals(without_copying(without_proved(without_star_math(TracedText(text)))))
+    plain = without_copying(with_typed_arrays(without_leaders(without_proved(without_star_math(TracedText(text))))))
+    plain = with_whole_numbers(without_intervals(plain), notes)
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))
     return with_drawn_pieces(with_tall_brackets(plain))
@@ -236,6 +246,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
     if not LATEX.search(session.text):
+        session = with_braced_lists(session)
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
     session = with_energies_below(session, lambda name: key(name) in moving, taken)
     relaxed = without_legend(_with_times(session, lambda name: key(name) in moving, taken))
@@ -272,16 +283,22 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
 def _copied_with_dots(text: str, lines: Lines, taken: Callable[[str], bool]) -> TracedText:
     """An answer without marks of copying, with the general form in its entries and dots above letters behind them."""
-    names, latex = lines.names, bool(LATEX.search(text))
-    coordinates = [c.name for c in lines.model.coordinates]
-    moving = {key(name) for name in coordinates}
-    copied = with_symmetric_entries(_copied(text), names.notes)
-    if not latex:
-        copied = with_indexed_coordinates(copied, coordinates, names.scope.meanings)
-        copied = _with_factors_apart(without_elements_behind(copied, lines.model, taken), taken)
-    copied = with_general_form(copied, len(moving), taken, names.notes, latex="\\" in text or "$" in text)
-    dotted = with_dots_above(copied, lambda name: key(name) in moving)
-    return dotted if latex else with_summed_tables(dotted, taken, names.notes)
+    names, moving = lines.names, {key(c.name) for c in lines.model.coordinates}
+    copied = with_symmetric_entries(_copied(text, names.notes), names.notes)
+    whole = _with_whole_forms(copied, lines, taken, latex="\\" in text or "$" in text)
+    dotted = with_dots_above(whole, lambda name: key(name) in moving)
+    return dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
+
+
+def _with_whole_forms(copied: TracedText, lines: Lines, taken: Callable[[str], bool], *, latex: bool) -> TracedText:
+    """An answer with sums over an index, matrices in words and general forms of matrices written out."""
+    names, coordinates = lines.names, [c.name for c in lines.model.coordinates]
+    rated = with_index_form(with_index_behind_comma(copied, names.changes), latex=latex)
+    whole = with_sums_written_out(rated, taken)
+    if not LATEX.search(whole.text):
+        whole = with_indexed_coordinates(with_spoken_matrices(whole), coordinates, names.scope.meanings)
+        whole = _with_factors_apart(without_elements_behind(whole, lines.model, taken), taken)
+    return with_general_form(whole, coordinates, taken, names.notes, latex=latex)
 
 
 def _with_times(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:

@@ -78,7 +78,7 @@ def parsed(
         whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
         remark = partial(is_remark, whole)
         try:
-            found.append(replace(_statement(own, parser, lines), remark=remark))
+            found.append(replace(_statement(own, parser, lines, words_of), remark=remark))
         except ParseError as error:
             if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
                 found += [replace(part, remark=remark) for part in parts]
@@ -140,7 +140,7 @@ def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words:
     try:
         for span in statements(own.text, words):
             part = Source(own.text[span.start : span.end], own.what, own.place, lambda at, k=span.start: own.at(k + at))
-            found.append(_statement(part, parser, lines))
+            found.append(_statement(part, parser, lines, words))
     except ParseError:
         return []
     return found
@@ -186,22 +186,28 @@ def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, wor
         start = match.start("said")
         part = Source(match["said"], own.what, own.place, lambda at, k=start: own.at(k + at))
         try:
-            found.append(_statement(part, parser, lines))
+            found.append(_statement(part, parser, lines, words))
         except ParseError:
             continue
     return found
 
 
-def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:
-    """The statement of a row; a bracket that is missing at its end alone is closed there, which a note tells."""
+def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> Statement:
+    """The statement of a row; a bracket that is missing at its end alone is closed there, which a note tells. Of one
+    that cannot be read, no note tells how its words and numbers were read."""
+    notes, splits = dict(lines.names.notes), words.splits()
     try:
         return Statement(tuple(parser(own).sides()), own)
     except ParseError as error:
+        lines.names.notes.clear()
+        lines.names.notes.update(notes)
+        words.forget(splits)
         if error.code == "E703" or len(end := missing_brackets(own.text)) != 1 or end == "?" or "=" not in own.text:
             raise
         try:
             sides = tuple(parser(replace(own, text=own.text + end)).sides())
         except ParseError:
+            words.forget(splits)
             raise error from None
         at = error.place.line if error.place is not None and error.place.line else 1
         lines.names.notes.setdefault(f"Line {at} lacks a bracket, which was closed at its end.")

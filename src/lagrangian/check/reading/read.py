@@ -61,12 +61,13 @@ from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
-from lagrangian.check.reading.set_aside import once
+from lagrangian.check.reading.set_aside import once, without_names_of_rates
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.subjects import MULTIPLIERS
 from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.wrapped_lines import refuse_unread, with_cut_lines
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
@@ -235,19 +236,20 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     check_length(source)
     written = written_out(source) if latex else None
     _set_dependents(lines.names, text, written)
-    words = _words(lines, text)
-    _choose(reading, words, lines, given)
+    words = _chosen(reading, _words(lines, text), lines, given)
+    text, cut = (text, False) if latex else with_cut_lines(text, words, reading.wrapped)
     source = plain.source(typed, text := text if latex else with_spoken_signs(text, words))
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows, outside = _rows(text, written, words, lines)
     check_number(rows, source, written)
     parsers = parsers_of(rows, outside if latex else rows, words, lines)
     statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
+    refuse_unread([*errors, *lines.failed, *lines.remarks] if reading.wrapped else [])
     if reading == LIKELIEST:
-        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
+        others += less_likely(words, dots, rated=rated and not latex, listed=listing, remarks=remarks.lines, cut=cut)
     marked = partial(places_of_marks, rows, source, written, words)
     try:
-        made = lines.read(statements, errors)
+        made = without_names_of_rates(lines.read(statements, errors), given)
     finally:
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     check_number(rows if _states_anything(made, lines) else [], source, written)
@@ -299,11 +301,12 @@ def _with_names_apart(written: TracedText, lines: Lines) -> TracedText:
     return with_starred_names(apart, names.known)
 
 
-def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
-    """Set how words and relations of coordinates are read."""
+def _chosen(reading: Choices, words: Words, lines: Lines, text: str) -> Words:
+    """The words of an answer, which are read as a reading says, and so are relations of coordinates."""
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     words.factored = reading.factors(text)
     lines.names.relations.put, lines.names.inputs.put = reading.puts(text), reading.driven
+    return words
 
 
 def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:

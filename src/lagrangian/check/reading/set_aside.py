@@ -71,3 +71,16 @@ def _line(error: ParseError) -> int:
 
 def _at(place: Place | None) -> tuple[int, int]:
     return (0, 0) if place is None else (place.line or 0, place.column or 0)
+
+
+def without_names_of_rates(lines: Sequence[AnswerLine], given: str) -> tuple[AnswerLine, ...]:
+    """The lines without those that only say how a rate is called, xp = x Punkt, which say x' = x' when they are read,
+    or of which the answer as it is ``given`` says in words what thdd is; all of them if there are no others."""
+
+    def is_name(line: AnswerLine) -> bool:
+        if not isinstance(line.lhs, sp.Derivative) or line.lhs != line.rhs:
+            return False
+        left, *rest = (side.strip() for side in line.text.split("="))
+        return rest == [left] or (line.text not in given and all(x[:1] == left[:1] for x in rest))
+
+    return tuple(x for x in lines if not is_name(x)) or tuple(lines)

@@ -18,8 +18,13 @@ MOST, LONGEST = 2_000, 1_000
 """The most lines of an answer, and the most characters of a line, that are looked at."""
 
 _LEAD = re.compile(r"\s*+(?:[^\W\d][\w ()^']{0,30}=)?\s*+\Z")
-_GAP = re.compile(r"(?:[\s=+*·×@−-]*+|\s{2,}+[^\W\d]\w{0,15}[ \t]*+=\s*+|\s*+[,;]\s*+[^\W\d]\w{0,15}[ \t]*+=\s*+)\Z")
+_GAP = re.compile(
+    r"(?:[\s=+*·×@−-]*+|\s*+[.•∙⋅∘◦]\s*+|\s++x\s++"
+    r"|\s{2,}+[^\W\d]\w{0,15}[ \t]*+=\s*+|\s*+[,;]\s*+[^\W\d]\w{0,15}[ \t]*+=\s*+)\Z"
+)
 """What stands between matrices: signs, or the name of another one behind a gap."""
+_DOT = re.compile(r"\s*+(?P<dot>[.•∙⋅∘◦x])\s*+")
+"""A sign of products that is no other sign where it stands alone."""
 _TAIL = re.compile(r"\s*+[.,;]?\s*+\Z")
 _SLASH = re.compile(r"(?<!\S)[/\\](?=\s)|(?<=\s)[/\\](?!\S)")
 _OPENS, _CLOSES = "⎡⎢⎣", "⎤⎥⎦"
@@ -75,10 +80,13 @@ def _brackets(block: Sequence[tuple[int, list[int], str]]) -> Iterator[Edit]:
     first = [line[bars[0]] for _, bars, line in block]
     if first != ["|"] * len(first) and first != ["/", *["|"] * (len(first) - 2), "\\"]:
         return
-    for k, (at, bars, _) in enumerate(block):
+    for k, (at, bars, line) in enumerate(block):
         piece = 0 if k == 0 else 2 if k == len(block) - 1 else 1
         for i, bar in enumerate(bars):
             yield at + bar, at + bar + 1, (_CLOSES if i % 2 else _OPENS)[piece]
+        for a, b in _outside(bars, len(line))[1:-1]:
+            if (dot := _DOT.fullmatch(line, a, b)) is not None:
+                yield at + dot.start("dot"), at + dot.end("dot"), "*"
 
 
 def _outside(bars: Sequence[int], end: int) -> list[tuple[int, int]]:

@@ -12,6 +12,7 @@ Long ones are cut into pieces, which arrows ↪ mark in newer versions of SymPy,
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.reading.drawn.layout import BARS, LayoutError, cells, in_line
@@ -45,10 +46,13 @@ _SAID = re.compile(
 _BAR = re.compile("[─━]+")
 _SIDE_WITH_BAR = re.compile(r"[ \t]*(?P<side>[^=\n─━]{1,40}?)[ \t]*=[ \t]*(?P<bar>-{4,}|[─━]{4,})[ \t]*")
 """An equation of which all that stands on the right is a bar."""
+_BARS_IN_SIDE = re.compile(r"(?<![-─━])(?:-{3,400}+|[─━]{2,400}+)(?![-─━])")
 _SIGN = re.compile(r"^[ \t]*+-[ \t]", re.MULTILINE)
 """A program's minus in front of an equation, which is no bullet."""
 _RIGHT_SIDE = re.compile(r"[ \t]{0,3}=[^=]")
 """What a program prints below a drawn side: = 0."""
+_MISPLACED = re.compile(r"[-+−–·⋅*/=(][ ]{0,9}\^|\^\(\)")
+"""A power of nothing: what stands higher belongs to something else."""
 _FRAME = re.compile("[\u2502\u2503\u250c-\u254b]")
 _ARROW = "↪"
 _ON_ONE_LINE = "write it on one line, (a)/(b); in SymPy, print() in place of pprint()"
@@ -220,17 +224,21 @@ def _one(lines: Sequence[str], space: _Space) -> str | None:
     raised, tall = any(map(_RAISED.fullmatch, lines)), _TALL.search(text) is not None
     if not (drawn or hyphens or raised) or (_is_plain_matrix(lines) and drawn):
         return None
+    counted = (False, True) if any(map(unicodedata.combining, text)) else (False,)
     for ascii_bars in (False, True) if hyphens and not drawn else (False,):
-        if len(lines) * max(map(len, lines)) > LARGEST and not (tall or _is_fraction(lines)):
-            return None
-        space.take(lines)
-        try:
-            made = in_line(lines, ascii_bars=ascii_bars)
-        except LayoutError:
-            continue
-        if _STATES.search(made) or (drawn and not _is_rule(lines)):
-            return made
-    return None
+        for marks in counted:
+            if len(lines) * max(map(len, lines)) > LARGEST and not (tall or _is_fraction(lines)):
+                return None
+            space.take(lines)
+            try:
+                made = in_line(lines, ascii_bars=ascii_bars, counted=marks)
+            except LayoutError:
+                continue
+            if _MISPLACED.search(made) or not _balanced(made):
+                continue
+            if _STATES.search(made) or (drawn and not _is_rule(lines)):
+                return made
+    return _fraction_in_side(lines)
 
 
 def _plain_fraction(lines: Sequence[str]) -> str | None:
@@ -244,6 +252,22 @@ def _plain_fraction(lines: Sequence[str]) -> str | None:
     if any(not left <= len(x) - len(x.lstrip()) < right or len(x.rstrip()) <= bar.start("bar") for x in (over, under)):
         return None
     return f"{bar['side']} = ({over.strip()})/({under.strip()})"
+
+
+def _fraction_in_side(lines: Sequence[str]) -> str | None:
+    """Three lines, x'' = a + with one bar between what stands above and below it alone, that need not be as wide."""
+    bars = list(_BARS_IN_SIDE.finditer(lines[1])) if len(lines) == 3 else []
+    if len(bars) != 1 or lines[1].count("=") != 1:
+        return None
+    (bar,) = bars
+    over, under = lines[0], lines[2]
+    moved = sum(unicodedata.combining(c) != 0 for c in lines[1][: bar.start()])
+    for x in (over, under):
+        first, last = len(x) - len(x.lstrip()), len(x.rstrip())
+        beside = not bar.start() - OVERHANG - moved <= first < bar.end() or not bar.start() - moved < last
+        if "=" in x or not x.strip() or not _balanced(x) or beside or last > bar.end() + OVERHANG + moved:
+            return None
+    return f"{lines[1][: bar.start()]}(({over.strip()})/({under.strip()})){lines[1][bar.end() :]}"
 
 
 def _is_plain_matrix(lines: Sequence[str]) -> bool:

@@ -47,12 +47,13 @@ class _Box:
     right: int
 
 
-def in_line(lines: Sequence[str], *, ascii_bars: bool = False) -> str:
+def in_line(lines: Sequence[str], *, ascii_bars: bool = False, counted: bool = False) -> str:
     """Return a drawing on one line. Raises `LayoutError` if its signs do not fit together.
 
-    ``ascii_bars``: two or more minus signs between a numerator and a denominator are a fraction bar.
+    ``ascii_bars``: two or more minus signs between a numerator and a denominator are a fraction bar; ``counted``: the
+    columns were counted with the marks above letters.
     """
-    layout = _Layout(lines, ascii_bars)
+    layout = _Layout([with_marks_counted(x) for x in lines] if counted else lines, ascii_bars)
     whole = layout.bare(_Box(0, len(layout.rows), 0, layout.width))
     if whole is None:
         raise LayoutError
@@ -71,6 +72,20 @@ def cells(line: str) -> list[str]:
         else:
             found.append(" " if c.isspace() else c)
     return found
+
+
+def with_marks_counted(line: str) -> str:
+    """A line in which as many blanks stand behind a word as it has marks, so that what follows is where a program that
+    counts them puts it."""
+    made: list[str] = []
+    owed = 0
+    for c in line:
+        owed += unicodedata.combining(c) != 0
+        if c == " ":
+            made.append(" " * owed)
+            owed = 0
+        made.append(c)
+    return "".join(made)
 
 
 class _Layout:

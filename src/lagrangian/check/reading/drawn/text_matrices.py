@@ -40,6 +40,8 @@ _SIGN = re.compile(r"[-+−–](?=\S)")
 _OPERATOR = "+-−–*/^·×=,;"
 _TIMES = re.compile(r"\s*[*·×@]?\s*")
 _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
+_ARRAY = re.compile(r"[■█]\s{0,9}\(")
+"""A matrix or an array in the linear format of Word's equation editor."""
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
 _NAMED_ROW = re.compile(
     r"\s*+[^\W\d]\w*+(?:⁻¹|\^\(?-1\)?)?+\s*+(?:\([\w,; '’′\u0307]{1,24}\)\s*+)?=\s*+"
@@ -71,7 +73,9 @@ def on_one_line(written: TracedText) -> TracedText:
         written = TracedText(written.text.translate(_PLAIN), written.origins)
     if "\\" not in written.text:
         written = written.sub(_BRACED_NAME, lambda m: m["name"]).sub(_BRACED_COLUMN, lambda m: f"[{m['entries']}]")
-    written = _blocks(_named_rows(written)).sub(_AT, lambda match: " * ")
+    written = _blocks(_named_rows(written))
+    if not _ARRAY.search(written.text):  # in which @ ends a row
+        written = written.sub(_AT, lambda match: " * ")
     written = written.edited(tuples(written.text))
     written = written.edited(tuple_sides(written.text))
     if "[" not in written.text:

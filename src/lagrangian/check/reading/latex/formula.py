@@ -11,6 +11,7 @@ from functools import partial
 from lark import Tree
 
 from lagrangian.check.reading.latex.quotients import CLOSING, LatexFractions
+from lagrangian.check.reading.latex.tokens import DETERMINANT, is_determinant
 from lagrangian.check.reading.multiple_angles import is_multiple
 from lagrangian.check.reading.name_patterns import RAISED
 from lagrangian.check.reading.names import Names
@@ -368,9 +369,11 @@ class LatexParser(LatexFractions):
             width = max(map(len, rows))
             rows = [[*row, *(number("0", token.start) for _ in range(width - len(row)))] for row in rows]
             self.names.notes.setdefault("Empty entries of a matrix were read as 0.")
-        return matrix(
-            token.start, [[self.mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
-        )
+        entries = [[self.mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
+        made = matrix(token.start, entries)
+        if is_determinant(token.text, self.source.text) and all(len(row) == len(entries) for row in entries):
+            return node("call", token.start, leaf("NAME", DETERMINANT, token.start), made)
+        return made
 
     def _says_symmetric(self) -> bool:
         """Whether the current matrix contains "sym." instead of its lower half."""

@@ -15,6 +15,7 @@ _SIGNED = re.compile(r"\{\s*(?:\{\}\s*)?[+-]")
 _COLOURED = re.compile(
     r"\\(?:textcolor|colorbox|mathcolor)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}\s*(?=\{)|\\color\s*\{[^{}]*\}"
 )
+_CLASS = re.compile(r"\\(?:(?P<hidden>[hv]?phantom)|math(?:rel|bin|op|ord|open|close|punct|inner))\s*\{")
 _UNITS = re.compile(r"(?<=\d)(?:\s|~|\\[,;:! ])*\\(?:mathrm|text|textrm|si|unit)\s*\{(?P<unit>[^{}]{0,60})\}")
 _ENVIRONMENT = re.compile(r"\\begin\{(?P<kind>(?:align|gather|flalign|alignat)\*?)\}(?:\{\d\})?")
 _BETWEEN = re.compile(r"\\(?:short)?intertext\s*\{")
@@ -85,12 +86,28 @@ def without_end_marks(text: str) -> str:
 
 def without_braces(text: str) -> str:
     r"""Return the text with \\underbrace{X}_{words} as X, \\overset{!}{=} as =, and colours left out; places stay."""
-    text = _COLOURED.sub(lambda m: " " * len(m.group()), text)
+    text = _without_classes(_COLOURED.sub(lambda m: " " * len(m.group()), text))
     for _ in range(_MAX):
         match = _UNDER.search(text)
         if match is None:
             return text
         text = _uncovered(text, match)
+    return text
+
+
+def _without_classes(text: str) -> str:
+    r"""The text without what is not printed, \\phantom{=}, and without what only says how far signs stand apart,
+    \\mathrel{=}."""
+    at = 0
+    for _ in range(_MAX):
+        match = _CLASS.search(text, at)
+        if match is None:
+            return text
+        end, at = closing(text, match.end()), match.end()
+        if match["hidden"]:
+            text = f"{text[: match.start()]}{' ' * (end - match.start())}{text[end:]}"
+        else:
+            text = f"{text[: match.start()]}{' ' * len(match.group())}{text[match.end() : end - 1]} {text[end:]}"
     return text
 
 
@@ -154,6 +171,19 @@ def without_units(text: str) -> str:
         return " " * len(match.group()) if whole else match.group()
 
     return _UNITS.sub(plain, text)
+
+
+_GAP_AT_END = re.compile(r"(?:\\[,;:!>\s]|\\q?quad|[\s~,]|\\)\Z")
+_FAR_GAP = 8
+"""The most characters of one piece of spacing."""
+
+
+def without_gap(text: str) -> str:
+    r"""The text without commas and spacing at its end: = b\\, \\\\ ends a row, = \\; \\\\ does not."""
+    end = len(text)
+    while (gap := _GAP_AT_END.search(text, max(0, end - _FAR_GAP), end)) is not None:
+        end = gap.start()
+    return text[:end]
 
 
 def closing(text: str, start: int) -> int:

@@ -13,6 +13,7 @@ from lagrangian.check.reading.latex.layout import (
     without_braces,
     without_brackets_around,
     without_end_marks,
+    without_gap,
     without_units,
 )
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
@@ -46,7 +47,9 @@ _SYSTEM = re.compile(
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
 _STYLE = re.compile(r"\\(?:display|text|script)style(?![A-Za-z])")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
-_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
+_BOXED = re.compile(
+    r"\\(?:A?boxed|fbox|tcbhighmath|tcboxmath|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{"
+)
 """What stands around a result; a line below one name is a part of the name."""
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
 _SHORT = re.compile(r"\w{1,20}\Z")
@@ -112,7 +115,6 @@ _WORK_BEFORE = re.compile(r"\s*+\\delta\s*+[WA](?![A-Za-z])[^&=]*+=\s*+(?:\{\s?\
 """A row with a minus at the mark behind = in a virtual work above: \\delta W ={}& a\\\\ &- b\\delta x = 0."""
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
-
 _PROSE = re.compile(r"[^\W_]*+[^\\=_^*/+{}<>|\n]*+")
 _SENTENCE = re.compile(r"\s*+(?P<said>[^\W\d_][^\\=_^*/+{}<>|\n]{4,300}[.!?])\s++(?=[^\n]*=)")
 """Words that end before an equation on the same line: The two steps were T and V. 0 = …"""
@@ -143,7 +145,6 @@ def latex_rows(text: str) -> list[AnswerRow]:
 _IF = re.compile(rf"(?<!\w)(?:{'|'.join(sorted(IF))})\s{{1,3}}(?:\$|\\\()\Z", re.IGNORECASE)
 _SINGLE = re.compile(r"\s*\\?[^\W\d]\w*(?:\{\w+\})?\s*=")
 _MOVES = re.compile(r"\\d?dot|['’′]")
-
 
 _LEVEL = re.compile(r"\s*(?P<energy>[TVU]|E_(?:p|\{?(?:\\\w{4,6}\{)?pot\}{0,2}))\s*=\s*0\s*")
 _AT_PLACE = re.compile(
@@ -332,11 +333,8 @@ def _content(piece: str) -> bool:
 
 def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
     """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
-    if (
-        _STARTS.match(piece)
-        or (hard and _INDENTED.match(piece))
-        or incomplete(before.replace("&", " ").rstrip("\\ ,"), piece)
-    ):
+    below = incomplete(without_gap(before.replace("&", " ")), piece)
+    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or below:
         return True
     if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
         return False

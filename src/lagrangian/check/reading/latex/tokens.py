@@ -11,8 +11,13 @@ from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
 from lagrangian.read.letters import GREEK
 
-MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "small") for star in ("", "*")) | {"array"}
+MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "v", "small") for star in ("", "*")) | {
+    "array"
+}
 """The environments of matrices."""
+
+DETERMINANT = "det"
+"""The command of a determinant, which is also that of a matrix between bars."""
 
 SYMMETRIC = "\x01"
 """The mark that replaces the word "sym." in a matrix."""
@@ -51,6 +56,7 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.DOTALL,
 )
+_COLUMN_IN_BARS = re.compile(r"\\begin\{vmatrix\}[^&]*?\\end\{vmatrix\}")
 _SKIPPED_LISTED = (
     "displaystyle textstyle scriptstyle limits nolimits nonumber notag quad qquad hfill hspace vspace "
     "thinspace medspace thickspace enspace phantom noindent left right big Big bigg Bigg bigl bigr Bigl Bigr "
@@ -124,6 +130,12 @@ def tokenize(source: Source) -> list[AnswerToken]:
     return tokens
 
 
+def is_determinant(begin: str, text: str) -> bool:
+    """Whether bars around a matrix that ``begin`` so say that its determinant is meant: no column in the text has them
+    as brackets."""
+    return "{v" in begin and _COLUMN_IN_BARS.search(text) is None
+
+
 def _command(name: str, source: Source, start: int) -> tuple[str, str]:
     """The kind and the text of a command."""
     name = _VARIANTS.get(name, name)
@@ -140,8 +152,8 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
         return "decoration", name
     if name in _PAIRS:
         return _PAIRS[name], name
-    if function is not None:
-        return "function", function
+    if function is not None or name == DETERMINANT:
+        return "function", function or name
     near = did_you_mean(name, [*_GREEK, *_VARIANTS, *_ACCENTS, *_DECORATIONS, *_PAIRS, *_OPERATORS, *FUNCTIONS])
     if near is not None:
         fix = near.replace("'", "'\\", 1)
@@ -153,8 +165,8 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
 def _word(text: str, source: Source, start: int) -> tuple[str, str]:
     r"""The kind and the text of upright letters: ``\mathrm{rod}``, ``\operatorname{sign}``, ``\text{d}``."""
     plain = text.replace(r"\_", "_").replace(" ", "").replace("~", "")
-    if (function := function_of(plain)) is not None:
-        return "function", function
+    if (function := function_of(plain)) is not None or plain == DETERMINANT:
+        return "function", function or plain
     if not plain:
         return "skipped", plain
     if not re.fullmatch(r"\w+", plain):

@@ -32,7 +32,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.calls import PlainCalls
 from lagrangian.check.reading.plain.conditions import AND, NOT, OR
 from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PARTIAL
-from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, is_varied, tokenize
+from lagrangian.check.reading.plain.tokens import DETERMINANTS, TOKEN, VARIATION, is_varied, tokenize
 from lagrangian.check.reading.programs.residuals import CALLED
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.errors import ParseError
@@ -262,6 +262,9 @@ class PlainParser(PlainCalls):
         whole = token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text)
         if whole or self._rewrites(token):
             return self._bracket_of_one()
+        if token.text in DETERMINANTS and not self.words.is_name(token.text):
+            called = leaf("NAME", "det", token.start)
+            return node("call", token.start, called, self._bracket() if self.next.kind == "(" else self._atom())
         if token.text == "diag" and self.next.kind == "(" and not self.words.is_name("diag"):
             listed = self._arguments()
             return diagonal(token.start, matrix_entries(listed[0]) or listed)

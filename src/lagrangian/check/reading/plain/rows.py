@@ -73,7 +73,7 @@ LONGEST_FORMULA = 400
 """The most characters of a formula with a word behind it that says what a name in it means."""
 
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
-_STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
+_STARRED = re.compile(r"(?<!\w)T\^\*{1,2}(?=\s*[=:])")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
 _LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–](?![-−–]{0,9}>)")
@@ -132,7 +132,9 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_headings(without_exercises(_STARRED.sub("T* ", without_sketches(text, words)), words))
+    text = without_headings(
+        without_exercises(_STARRED.sub(lambda m: "T*".ljust(len(m.group())), without_sketches(text, words)), words)
+    )
     text = with_words_joined(without_combinations(without_conditions(text, words), words), words)
     text = without_directions(without_units(without_dashes(text, words), words), words)
     text = without_remarks(stated_remarks(text), words)

@@ -59,6 +59,9 @@ _BY_TIME = re.compile(r"[ \t]?/[ \t]?dt(?!\w)")
 _LONGEST = 24
 """The most letters of a word among which a rate is sought."""
 _MARKED = re.compile(rf"{_PRIME}(?!s\b)")
+DETERMINANTS = frozenset(["det", "Det"])
+"""What is written in front of a matrix for its determinant."""
+_MATRIX_BEHIND = re.compile(r"[ ]?[(\[]|[ ][A-ZΑ-Ω](?![a-z])")
 _QUOTIENT = re.compile(r"[ \t]*/[ \t]*[(]?d")
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _WORD = re.compile(NAME)
@@ -187,6 +190,9 @@ def _names(word: str, source: Source, start: int, words: Words) -> Iterator[Answ
 def _parts(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
     """The tokens of a word without virtual displacements."""
     end = start + len(word)
+    if word in DETERMINANTS and _MATRIX_BEHIND.match(source.text, end) is not None and not words.is_name(word):
+        yield AnswerToken("name", word, start, end)
+        return
     quotient = _QUOTIENT.match(source.text, end) or source.text[:start].rstrip()[-1:] == "/"  # dx/dθ
     if not quotient and (stem := words.behind_factor(word, rated=_MARKED.match(source.text, end) is not None)):
         words.note_split(word, f"d {stem}")

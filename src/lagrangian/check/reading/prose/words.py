@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cache, lru_cache
 from unicodedata import normalize
 
@@ -342,6 +342,14 @@ class Words:
     def note_split(self, word: str, parts: str) -> None:
         """Note how a word was split."""
         self._split.setdefault(word, parts)
+
+    def splits(self) -> frozenset[str]:
+        """The words that were split so far."""
+        return frozenset(self._split)
+
+    def forget(self, but: Collection[str]) -> None:
+        """Forget which words were split, but those that were before."""
+        self._split = {word: parts for word, parts in self._split.items() if word in but}
 
     def notes(self) -> Iterator[str]:
         """How words were split, in one sentence."""

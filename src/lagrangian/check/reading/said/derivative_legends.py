@@ -25,16 +25,18 @@ _WORDS = (
     r"(?:[ ](?:by|in|with[ ]respect[ ]to|w\.r\.t\.|nach)[ ](?:der[ ])?(?:time|t|zeit)\b)?"
 )
 _ALONE = r"(?:first|1st|second|2nd|erste|zweite)(?=[ \t]*(?:[,;.)]|$))"
+_DOTS = r"(?:(?:a|one|single|ein|double|two|zwei)[ ](?:dots?|Punkte?)|dot|ddot|Punkt)(?=[ \t]*(?:[,;.)]|$))"
 _WHERE = r"(?:behind|after|before|in[ ]front[ ]of|under|over|on|hinter|nach|vor|an)[ ](?:(?:an?|the|any|einem|dem)[ ])?"
 _LEGEND = re.compile(
     r"(?<![\w.*/^+'’′-])(?P<quote>['\"`]?)(?:(?:a|an|suffix|prefix|index|subscript)[ ])?"
     r"(?:(?P<mark>[^\W\d]{1,4}\d?)|(?P<shown>[^\W\d]\w{0,11}(?:['’′]{1,2}|\.{1,2})|['’′]{1,2}))(?P=quote)"
     rf"(?:[ ]{_WHERE}(?:name|letter|coordinate|variable|symbol|quantity|buchstaben|namen)s?)?"
     r"[ \t]*(?:=|:|\bmeans\b|\bis\b|\bdenotes\b|\bstands[ ]for\b|\bheißt\b|\bbedeutet\b|\bist\b)[ \t]*"
-    rf"(?P<said>{_OPERATOR}|{_WORDS}|{_ALONE})(?![\w(])[ \t]*[,;.]?",
+    rf"(?P<said>{_OPERATOR}|{_WORDS}|{_ALONE}|{_DOTS})(?![\w(])[ \t]*[,;.]?",
     re.IGNORECASE | re.MULTILINE,
 )
-_SECOND = re.compile(r"second|2nd|zweite|[2²]", re.IGNORECASE)
+_SECOND = re.compile(r"second|2nd|zwei|double|two|ddot|[2²]", re.IGNORECASE)
+_DERIVES = re.compile(r"deriv|ableit|/|dot|punkt", re.IGNORECASE)
 _NAME = re.compile(r"(?<![\w\\])(?:(?<=/)[d∂](?=\w))?(?P<name>[^\W\d]\w{0,23})")
 _OF = re.compile(r"[ \t]?(?P<open>\()?(?P<of>[^\W\d]\w{0,23})(?(open)\)|(?![\w(]))")
 _OF_ENERGY = re.compile(r"d[TVULD][ ]?/[ ]?d")
@@ -105,7 +107,7 @@ def with_derivative_legends(
     """
     text = written.text
     found = [m for m in islice(_LEGEND.finditer(text), MOST) if m["shown"] or not taken(m["mark"])]
-    if not any("deriv" in m["said"].lower() or "ableit" in m["said"].lower() or "/" in m["said"] for m in found):
+    if not any(_DERIVES.search(m["said"]) for m in found):
         return written
     edits: list[Edit] = [(*m.span(), "") for m in found if m["shown"]]
     marks = [_Mark(m["mark"], 2 if _SECOND.search(m["said"]) else 1) for m in found if m["mark"]]

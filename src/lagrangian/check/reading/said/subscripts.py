@@ -3,6 +3,7 @@ of energies that have what they are taken by as an index.
 
 w = phi_t, J w_t + b w = tau, m x_tt = F      w = phi', J w' + b w = tau, m x'' = F
 \theta_{tt}, x_t                              \ddot{\theta}, \dot{x}
+m x_{,tt} + c x_{,t} = F, x_1,tt              m x'' + c x' = F, x_1''           behind a comma, whatever else is said
 L_xd = m xd, d/dt L_ẋ - L_x = 0               ∂L/∂xd = m xd, d/dt (∂L/∂ẋ) - (∂L/∂x) = 0
 T_{\dot x}, V_\varphi                         \frac{\partial T}{\partial \dot x}, \frac{\partial V}{\partial \varphi}
 """
@@ -18,7 +19,8 @@ from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.read.letters import undotted
 
 _STEM = r"(?P<of>\\?[^\W\d_]\w{0,23}?)"
-_PLAIN = re.compile(rf"(?<![\w\\]){_STEM}_(?P<by>t{{1,2}})(?![\w'’′(])")
+_PLAIN = re.compile(rf"(?<![\w\\]){_STEM}_(?P<by>t{{1,2}})(?![^\W²³]|['’′(])")
+_BRACED = re.compile(r"(?<=\w)_\{[ ]?(?P<by>t{1,2})[ ]?\}")
 _LATEX = re.compile(
     r"(?<![A-Za-z\\])(?P<of>\\?[A-Za-z]+?(?:_\d|_\{\d\})?)_(?:\{\s?(?P<by>t{1,2})\s?\}|(?P<short>t)(?![A-Za-z]))(?!['’′(])"
 )
@@ -99,6 +101,44 @@ def _slope(match: re.Match[str], *, latex: bool) -> str:
     return f"∂{of}/∂{by}" if alone else f"(∂{of}/∂{by})"
 
 
+_COMMA = re.compile(
+    r"(?<![A-Za-z\\])(?P<of>\\?[^\W\d_]{1,23}+(?:_(?!,)[^\W_]{1,8})?)_(?:"
+    r"\{[ ]?(?P<index>[^\W_]{0,8}+)[ ]?,[ ]?(?P<by>t{1,2})[ ]?\}|,(?P<bare>t{1,2})(?![^\W²³]|['’′(]))"
+)
+"""t behind a comma in an index, perhaps behind another index: x_{,tt}, \\theta_{1,t}, x_,t."""
+_ON_LINE = re.compile(r"(?<![\w\\.])(?P<of>[^\W\d_]\w{0,23}),(?P<by>t{1,2})(?![^\W²³]|['’′(])")
+"""The same without a mark of an index: x,tt."""
+_CALLS_WITH_T = re.compile(r"(?<!\w)(?:[dD]iff|Derivative|D|[dD]solve|subs)[ ]?[(\[]")
+_LEGEND = re.compile(
+    r"^[^=\n]{0,60}(?:(?<!\w)[(\[][ .·•…*]{0,5}[)\]]|[·•…](?!\w)|\bcomma\b|\bKomma\b)[ ]?_?\{?[ ]?,?[ ]?t{0,2}\}?(?!\w)"
+    r"[^\n]{0,80}(?:derivative|rate|Ableitung|differentiat|d[ ]?(?:\([^()\n]{0,5}\)[ ]?)?/[ ]?dt)[^=\n]{0,60}$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A line that says what the comma means: ( ),t is the time derivative."""
+
+
+def with_index_behind_comma(written: TracedText, moves: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which such indices of what changes with time are primes or dots, without the line that says
+    what they mean."""
+    text = written.text
+    latex = "\\" in text or "$" in text
+    found = [m for m in _COMMA.finditer(text) if moves(_name(_of(m)))]
+    if not found and not latex and _CALLS_WITH_T.search(text) is None:
+        found = [m for m in _ON_LINE.finditer(text) if moves(m["of"])]
+        found = found if any(m["by"] == "tt" for m in found) else []
+    if not found:
+        return written
+    said = [m for m in _LEGEND.finditer(text) if not any(m.start() <= x.start() < m.end() for x in found)]
+    edits = [(*m.span(), _dotted(_of(m), len(m.groupdict().get("bare") or m["by"]), latex=latex)) for m in found]
+    return written.edited([*edits, *((*m.span(), "") for m in said)])
+
+
+def _of(match: re.Match[str]) -> str:
+    """What is differentiated, with its other index."""
+    index = match.groupdict().get("index")
+    return f"{match['of']}_{index}" if index else match["of"]
+
+
 def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in which such rates have primes or dots.
 
@@ -106,9 +146,9 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
     own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a
     value: M_t = m_1 + m_2 is a mass; and where words explain the index, if the names stand without it, too.
     """
-    text = written.text
-    latex = "\\" in text or "$" in text
-    form = _LATEX if latex else _PLAIN
+    latex = "\\" in written.text or "$" in written.text
+    written = written if latex else written.sub(_BRACED, lambda m: f"_{m['by']} ")
+    text, form = written.text, _LATEX if latex else _PLAIN
     found = [m for m in form.finditer(text) if not taken(_name(m.group()))]
     twice = any((m["by"] == "tt") and moves(_name(m["of"])) for m in found)
     explained = _EXPLAINED.search(text) is not None
@@ -140,9 +180,12 @@ def _name(written: str) -> str:
 
 
 def _written(match: re.Match[str], *, latex: bool) -> str:
+    return _dotted(match["of"], len(match["by"] or "t"), latex=latex)
+
+
+def _dotted(name: str, order: int, *, latex: bool) -> str:
     """A name with primes, or with dots in LaTeX."""
-    order = len(match["by"] or "t")
     if not latex:
-        return match["of"] + "'" * order
-    letter, _, index = match["of"].partition("_")
+        return name + "'" * order
+    letter, _, index = name.partition("_")
     return f"\\{'d' * order}ot{{{letter}}}" + (f"_{index}" if index else "")

@@ -24,6 +24,27 @@ _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|)+[ \t]*")
 _WORDS = re.compile(r"[^\W\d_]{4,}")
 _LABEL = re.compile(r"[\w \t.,:()/*'’-]{0,60}")
 """What may stand in front of the statement of a row."""
+_BEHIND = r"(?:[ ]?[-,:(][^|\n]{0,60}|[ ]of[ ][^|\n]{0,40})?"
+_SIDES = tuple(
+    re.compile(rf"(?:the[ ])?(?:{words}){_BEHIND}", re.IGNORECASE)
+    for words in (
+        r"left(?:[- ]?hand)?(?:[ ]?sides?)?|l\.?[ ]?h\.?[ ]?s\.?|linke(?:[ ]Seite)?|links"
+        r"|(?:membre[ ]de[ ])?gauche|lado[ ]izquierdo",
+        r"(?:=[ ]?)?(?:right(?:[- ]?hand)?(?:[ ]?sides?)?|r\.?[ ]?h\.?[ ]?s\.?|rechte(?:[ ]Seite)?|rechts"
+        r"|(?:membre[ ]de[ ])?droite?|lado[ ]derecho)",
+    )
+)
+"""What stands above the columns of the left sides and of the right sides."""
+_EQUALS = re.compile(r"equals?|is|ist|gleich|égale?", re.IGNORECASE)
+_EQUAL = re.compile(
+    r"^[ \t]*(?:(?:in|for)[ ](?:every|each|all)[ ]rows?,?[ ])?(?:the[ ])?(?:left|first|second|linke)(?:[- ]?hand)?[ ]?"
+    r"(?:sides?|columns?|Seite|Spalte)?[ ]?(?:=|equals?|is[ ]equal[ ]to|are[ ]equal[ ]to|ist[ ]gleich)[ ]?"
+    r"(?:the[ ]|der[ ])?"
+    r"(?:right|second|third|last|rechten?)(?:[- ]?hand)?[ ]?(?:sides?|columns?|(?:one|two)s?|Seite|Spalte)?"
+    r"(?:[ ](?:in|for|of)[^=\n|]{0,40})?[.:]?[ \t]*$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""Words that say that the columns of a table are equal: left side = right side in every row."""
 _NOTHING = frozenset(["", "-", "–", "—", "−", "/", "none", "keine"])
 _ENERGIES = {
     "T": ("T", "T*", "T^*", "kinetic", "kinetic energy", "Ekin", "E_kin", "kinetisch", "kinetische Energie", "KE"),
@@ -71,6 +92,7 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
     ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system.
     """
     edits: list[Edit] = []
+    equal = list(islice(_EQUAL.finditer(written.text), MOST))
     for match in islice(_TABLE.finditer(written.text), MOST):
         lines = match.group().rstrip("\n").split("\n")
         if not 2 < len(lines) <= MOST or _RULE.fullmatch(lines[1]) is None or max(map(len, lines)) > LONGEST:
@@ -81,8 +103,11 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
             cells[1],
             *([_coordinate(x[0], moves), *x[1:]] for x in cells[2:]),
         ]
-        if any("=" in x for row in cells for x in row):
-            edits += _sides(match.start(), lines, cells) or _without_labels(match.start(), lines)
+        sides = _sides(match.start(), lines, cells, equal=bool(equal))
+        if sides or any("=" in x for row in cells for x in row):
+            edits += sides or _without_labels(match.start(), lines)
+            edits += ((*m.span(), "") for m in equal if sides)
+            equal = [] if sides else equal
             continue
         made = _made([cells[0], *cells[2:]], moves, taken)
         if made is None:
@@ -96,21 +121,23 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
     return written.edited(edits)
 
 
-def _sides(at: int, lines: Sequence[str], cells: Sequence[Sequence[str]]) -> list[Edit]:
-    """The equations of a table whose head says where the right sides stand, | | inertia | = forces |, or that has a
-    column of equals signs: of each row its last cells."""
+def _sides(at: int, lines: Sequence[str], cells: Sequence[Sequence[str]], *, equal: bool) -> list[Edit]:
+    """The equations of a table whose head says where the sides stand, | | inertia | = forces |, | | left | right |, or
+    that has a column of equals signs, or of which words say that its columns are ``equal``: of each row its last
+    cells."""
     head, body = cells[0], cells[2:]
     if any(len(row) != len(head) for row in body):
         return []
     signs = [k for k in range(1, len(head)) if all(row[k] == "=" for row in body)]
     said = [k for k, cell in enumerate(head) if k and re.match(r"=(?![=>])", cell)]
-    if len(signs) == 1 and head[signs[0]] in ("", "="):
+    named = len(head) > 1 and (equal or all(map(re.fullmatch, _SIDES, head[-2:])))
+    if len(signs) == 1 and (head[signs[0]] in ("", "=") or _EQUALS.fullmatch(head[signs[0]])):
         left, right = signs[0] - 1, signs[0] + 1
-    elif not signs and said == [len(head) - 1] and not any("=" in x for row in body for x in row):
+    elif not signs and (said == [len(head) - 1] or named) and not any("=" in x for row in body for x in row):
         left, right = len(head) - 2, len(head) - 1
     else:
         return []
-    if not 0 <= left <= 1 or right != len(head) - 1:
+    if not 0 <= left <= 1 or right != len(head) - 1 or not all(row[left] and row[right] for row in body):
         return []  # more columns are terms, or forces
     edits: list[Edit] = []
     for k, line in enumerate(lines):
