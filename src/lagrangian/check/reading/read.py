@@ -254,13 +254,12 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     check_number(rows if _states_anything(made, lines) else [], source, written)
     aside += told_remarks(remarks.lines) if reading.bare else []
-    doubtful = changing_words(given if latex else with_spoken_signs(given, words))
-    notes = tuple(once((*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)))
+    spoken = given if latex else with_spoken_signs(given, words)
     return Answer(
         made,
         "latex" if latex else "text",
         tuple(lines.names.unknown.values()),
-        notes,
+        (*once((*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *changing_words(spoken))),),
         described_names(given, lines.names.known),
         frozenset(lines.unread) | chosen_names(given),
         remarks.said,
