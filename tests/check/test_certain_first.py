@@ -216,7 +216,7 @@ def test_an_answer_of_energies_and_forces_says_which_energy_it_has_not() -> None
     T, Xi = "T = 1/2 M x'^2 + 1/2 m (x' + h')^2", "Q_x = 0\nQ_h = F"
     for V, silent in (("V = 1/2 K x^2 + 1/2 k h^2", False), ("V1 = 1/2 K x^2", True), ("", True)):
         notes = [str(x) for x in told(f"{T}\n{V}\n{Xi}", SLIDE).notes]
-        assert any(x.startswith("No line states V") for x in notes) == silent, notes
+        assert any(x.startswith("V is missing") for x in notes) == silent, notes
 
 
 @cache

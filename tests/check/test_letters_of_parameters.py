@@ -65,7 +65,7 @@ def test_forces_without_an_energy_are_no_whole() -> None:
     assert cart().check(kinetic).right
     verdict = cart().check(kinetic + forces)
     assert verdict.status is Status.INCOMPLETE
-    assert any("No line states V" in str(x) for x in verdict.notes)
+    assert any("V is missing" in str(x) for x in verdict.notes)
     assert cart().check(f"{kinetic}V = k x^2/2 - m g l cos phi\n{forces}").right
 
 

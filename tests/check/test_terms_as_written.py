@@ -182,4 +182,4 @@ def test_a_slope_of_the_energies_is_told_by_what_each_element_adds() -> None:
     s.spring(k, deflection=x - R * theta / 2)
     row = "(J + M R^2/4) theta'' - M g R/2 - k (x - R theta/2) = 0\nm x'' - m g + k (x - R theta/2) = 0"
     found = told(s.derive(), f"∂L/∂theta = M g R/2 + k (x - R theta/2)\n{row}")
-    assert found == ["1 (∂ℒ/∂ξ of theta): k (x − ½ R θ) should be ½ k R (x − ½ R θ)"]
+    assert found == ["1 (∂ℒ/∂ξ of θ): k (x − ½ R θ) should be ½ k R (x − ½ R θ)"]

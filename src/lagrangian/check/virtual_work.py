@@ -88,10 +88,11 @@ def _is_place(truth: Reference, expr: sp.Expr) -> bool:
 
 def _equations_of(truth: Reference, line: AnsweredLine, *, right: bool) -> list[AnsweredLine]:
     """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0; with
-    ``right``, all of them."""
+    ``right``, the one of a single δξ also if it is right."""
     claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
     moved = displacements(line.expr) if claims else {}
     places = {key(c.name) for c in truth.model.coordinates}
+    right = right and len(moved) == 1
     if not moved or truth.derivation.multipliers or any(key(name) not in places for name in moved.values()):
         return []
     factors = _linear(line.expr, moved)

@@ -2,7 +2,7 @@ r"""Reads large numbers whose digits stand in groups of three.
 
 40 000 x   40\,000 x   40~000 x        a gap, or in LaTeX a thin space
 40'000 x   40_000*x                    a mark, as it is written in Switzerland and in programs
-40,000 x + 0.5 y   40{,}000 x          a comma, in an answer with decimal points, or in front of zeros alone
+12,500 x + 0.5 y   40{,}000 x          a comma in front of a round number, in an answer with decimal points, or of zeros
 40.000 x + 0,5 y                       a point in front of zeros alone, in an answer with decimal commas
 """
 
@@ -56,11 +56,17 @@ def with_whole_numbers(written: TracedText, notes: dict[str, None]) -> TracedTex
     point, comma = (_is_used(text, form) for form in (_DECIMAL_POINT, _DECIMAL_COMMA))
     edits = list(_edits(text, _WITH_GAP, _counting(text), listed=False))
     signed = [x for x in _edits(text, _WITH_COMMA, frozenset(), listed=True) if not comma]
-    signed = [x for x in signed if point or _ZEROS.fullmatch(text[x[0] : x[1]])]
+    signed = [x for x in signed if (point and _is_round(text[x[0] : x[1]])) or _ZEROS.fullmatch(text[x[0] : x[1]])]
     if comma and not point:
         signed = [x for x in _edits(text, _WITH_POINT, frozenset(), listed=True) if _ZEROS.fullmatch(text[x[0] : x[1]])]
     notes.update(dict.fromkeys(f"{text[a:b]} was read as {made.strip()}." for a, b, made in signed))
     return written.edited([*edits, *signed])
+
+
+def _is_round(written: str) -> bool:
+    """Whether a number with commas can hardly be a decimal one: 12,500 and 1,234,567, but not 4,905."""
+    whole = written.partition(".")[0]
+    return whole.endswith("00") or len(re.findall(_COMMA, whole)) > 1
 
 
 def _is_used(text: str, form: re.Pattern[str]) -> bool:

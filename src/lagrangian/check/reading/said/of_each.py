@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 from itertools import islice
 
+from lagrangian.check.reading.name_patterns import INNER, WORD_LETTER
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
@@ -22,7 +23,8 @@ _LABELLED = re.compile(
 )
 """A line that begins with a word or some and a colon."""
 _GIVEN = re.compile(
-    r"(?:^|[,;]|[ \t]{2}|\b(?:and|und|with|mit))[ \t]*(?P<name>[^\W\d_]\w{0,7})(?:['’′]{0,2}|²|\^2)[ \t]*=(?![=>])"
+    rf"(?:^|[,;]|[ \t]{{2}}|\b(?:and|und|with|mit))[ \t]*(?P<name>{WORD_LETTER}{INNER}{{0,7}}+)"
+    r"(?P<mark>['’′]{1,2}|²|\^2)?[ \t]*=(?![=>])"
 )
 
 
@@ -38,6 +40,8 @@ def with_names_of_each(written: TracedText, taken: Callable[[str], bool]) -> Tra
     edits: list[Edit] = []
     for name, places in found.items():
         labels = {label.lower() for *_, label in places}
+        if all(match["mark"] for match, *_ in places):
+            continue  # rates and squares alone
         alone = len(re.findall(rf"(?<!\w){re.escape(name)}(?!\w)", text)) == len(places)
         if len(places) > 1 and len(labels) == len(places) and alone:
             for match, start, label in places:

@@ -27,7 +27,7 @@ _ROW = re.compile(
 _SECOND = re.compile(rf"(?<=[\w)\]²³'’′])(?P<gap>[ \t]{{1,2}})(?P<new>{_NAME})[ \t]*=(?![=>])")
 _BESIDE = re.compile(
     rf"^(?P<before>[^=\n]{{3,200}}?[\w)\]²³'’′\u0307\u0308])(?P<gap>[ \t]{{3,150}}+)"
-    rf"(?={_NAME}['’′]{{0,2}}(?:²|\^2)?[ \t]*=(?![=>]))",
+    rf"(?=(?P<name>{_NAME})['’′]{{0,2}}(?:²|\^2)?[ \t]*=(?![=>]))",
     re.MULTILINE,
 )
 """A term without an equals sign, and a definition far behind it: - m g cos psi      psi = psi0 - x/r."""
@@ -60,7 +60,7 @@ def with_definitions_apart(written: TracedText, taken: Callable[[str], bool]) ->
             and all(_is_value(x, own, taken) for x in values)
         ):
             edits += [(start + x.start("gap"), start + x.end("gap"), "; ") for x in found]
-    terms = (m for m in islice(_BESIDE.finditer(text), MOST) if _is_term(m["before"], taken))
+    terms = (m for m in islice(_BESIDE.finditer(text), MOST) if not taken(m["name"]) and _is_term(m["before"], taken))
     edits += [(*m.span("gap"), "; ") for m in terms]
     return written.edited(edits)
 
