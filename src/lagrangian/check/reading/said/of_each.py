@@ -42,7 +42,7 @@ def with_names_of_each(written: TracedText, taken: Callable[[str], bool]) -> Tra
         labels = {label.lower() for *_, label in places}
         if all(match["mark"] for match, *_ in places):
             continue  # rates and squares alone
-        alone = len(re.findall(rf"(?<!\w){re.escape(name)}(?!\w)", text)) == len(places)
+        alone = len(re.findall(rf"(?<!\w){re.escape(name)}(?![^\W²³])", text)) == len(places)
         if len(places) > 1 and len(labels) == len(places) and alone:
             for match, start, label in places:
                 named = re.sub(r"\W", "", label.title() if " " in label else label)
