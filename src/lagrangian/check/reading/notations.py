@@ -41,7 +41,7 @@ from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.named_sums import with_named_sums
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
-from lagrangian.check.reading.own_derivatives import with_own_derivatives
+from lagrangian.check.reading.own_derivatives import with_own_derivatives, with_second_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
 from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
@@ -162,7 +162,7 @@ def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], l
         return key(name) in moving
 
     if not latex:
-        applied = with_functions_applied(text, taken, names.notes)
+        applied = with_functions_applied(with_second_derivatives(text, moves, taken), taken, names.notes)
         text = with_own_derivatives(with_slopes_by_arguments(applied, moves, taken, names.notes), moves, taken)
     text = with_declared_slopes(text, moves, taken, names.notes, latex=latex)
     text = with_primes_of_slopes(text, moves, taken, names.notes, latex=latex)
