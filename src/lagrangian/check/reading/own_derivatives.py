@@ -21,12 +21,20 @@ MOST = 40
 """The most derivatives that are looked at."""
 
 
-_TWO = r"(?:²|\^[ ]?\(?2\)?|\*\*[ ]?2|2)"
+_TWO = r"(?:²|\^[ ]?(?:2|\(2\))|\*\*[ ]?2|2)"
 _SECOND = re.compile(
-    rf"(?<![^\W\d])(?P<d>[d∂])[ ]?{_TWO}[ ]?(?P<of>{_NAME})(?:\([ ]?[^\W\d_]\w{{0,15}}[ ]?\))?[ ]?/[ ]?(?P<open>\()?[d∂][ ]?"
-    rf"(?P<by>[^\W\d_][^\W²³]{{0,15}}?)[ ]?{_TWO}(?(open)[ ]?\))(?![\w²³'’′\u0307\u0308(])"
+    rf"(?<![^\W\d])(?P<d>[d∂])[ ]?{_TWO}[ ]?(?P<of>{_NAME})(?:\([ ]?[^\W\d_]\w{{0,15}}[ ]?\))?"
+    rf"[ ]?/[ ]?(?P<open>\()?[d∂][ ]?(?P<by>[^\W\d_][^\W²³]{{0,15}}?)[ ]?{_TWO}(?(open)[ ]?\))"
+    r"(?![\w²³'’′\u0307\u0308(])"
 )
 """A second derivative by one name: d²l/dθ², ∂^2 V/∂θ^2, d2l/dtheta2."""
+
+
+_TWICE_OF = re.compile(
+    rf"(?<![^\W\d])(?P<d>[d∂])[ ]?{_TWO}[ ]?/[ ]?[d∂][ ]?(?P<by>[^\W\d_][^\W²³]{{0,15}}?)[ ]?{_TWO}[ ]?"
+    rf"(?P<open>\()?[ ]?(?P<of>{_NAME})(?(open)[ ]?\)|(?=[ ]{{0,3}}(?:=|\))))(?![\w²³'’′\u0307\u0308(])"
+)
+"""The same with an operator, in brackets or alone on its side: d²/dθ² l = …."""
 
 
 def with_second_derivatives(
@@ -39,7 +47,7 @@ def with_second_derivatives(
         fits = coordinate(match["by"]) and not coordinate(match["of"]) and not factors
         return f"∂²{match['of']}/∂{match['by']}²" if fits else match.group()
 
-    return text.sub(_SECOND, round_signs)
+    return text.sub(_SECOND, round_signs).sub(_TWICE_OF, round_signs)
 
 
 def with_own_derivatives(

@@ -28,7 +28,7 @@ _STATED = re.compile(
 _D = r"(?:\\mathrm[ ]?\{d\}|\\partial|d|∂)[ ]?(?:\([ ]?(?:\\cdot|·|\.)?[ ]?\))?[ ]?"
 _OVER = rf"(?:{_D}/[ ]?{_D}(?P<under>{_NAME})|\\[dt]?frac[ ]?\{{[ ]?{_D}\}}[ ]?\{{[ ]?{_D}(?P<below>{_NAME})[ ]?\}})"
 _LEGEND = re.compile(
-    r"(?:[,;][ \t]*+|\band[ ])?(?:\b(?:(?:[Aa]|[Tt]he)[ ])?[Pp]rimes?\b|(?<![\w)}\]'’′])(?P<open>\$)?[ ]?"
+    r"(?:\b(?:(?:[Aa]|[Tt]he)[ ])?[Pp]rimes?\b|(?<![\w)}\]'’′])(?P<open>\$)?[ ]?"
     r"(?:\([ ]?(?:\\cdot|·|\.)?[ ]?\))?['’′])(?:[ ]\([ ]?['’′][ ]?\))?"
     r"[ \t]*+(?:=|≡|:|\\equiv|means?|denotes?|stands?[ ]for|marks?|indicates?|is|are|for)[ \t]*+"
     rf"(?:(?:the|a)[ ])?(?(open)|\$?)[ ]?(?:{_OVER}|(?:derivatives?|differentiation|slopes?)[ ]"
@@ -37,14 +37,16 @@ _LEGEND = re.compile(
 """What says of which derivative primes are: prime = d/dθ, primes denote derivatives with respect to θ."""
 _BEGINS = re.compile(r"(?:(?<![\w\\])|(?<=[½¼¾⅓⅔])|(?<=frac\d\d)|(?<=[-+−–=(\[{ ]\d))")
 """Where a name begins, also behind a fraction or a number: ½I'."""
-_RUN = re.compile(r"(?<![\w\\])[^\W\d_]{1,4}\Z")
+_RUN = re.compile(r"(?<![^\W\d])(?<!\\)[^\W\d_]{1,4}\Z")
 _APPLIED = re.compile(
     rf"(?<![^\W\d_])(?P<name>{_NAME})[ ]?['’′″]{{1,2}}(?:\\left)?\([ ]?(?P<by>{_NAME})[ ]?(?:\\right)?\)"
 )
 """A name with primes, and what it depends on: l'(θ)."""
 _PRIMES = r"[ ]?(?P<primes>['’′]{1,2}|″)(?!['’′″])"
 _DOTS = re.compile("[\u0307\u0308]|\\\\d?dot(?![A-Za-z])")
-_PRIMED = re.compile(r"(?<![^\W\d_])(?P<name>\\?[^\W\d_]\w{0,15}?)[ ]?['’′″]")
+_PRIMED = re.compile(
+    r"(?:(?<=frac\d\d)|(?<![^\W\d_½¼¾⅓⅔])(?!\\?[dt]?frac\d))(?P<name>\\?[^\W\d_½¼¾⅓⅔]\w{0,15}?)[ ]?['’′″]"
+)
 _LETTERS = re.compile(r"\\?[^\W\d_]+")
 _FUNCTION = re.compile(r"\\?(?:sin|cos|tan)(?=[^\W\d_\\])")
 _POWERS = re.compile("[⁰¹²³⁴-⁹]")
@@ -66,7 +68,9 @@ def with_primes_of_slopes(
     """
     whole = normalize("NFD", text.text)
     legend = next((m for m in islice(_LEGEND.finditer(text.text), MOST) if moves(_bare(_by(m)))), None)
-    primed = dict.fromkeys(m["name"] for m in islice(_PRIMED.finditer(text.text), 20 * MOST))
+    said = range(*legend.span()) if legend is not None else range(0)
+    marks = (m for m in islice(_PRIMED.finditer(text.text), 20 * MOST) if m.end() - 1 not in said)
+    primed = dict.fromkeys(m["name"] for m in marks)
     applied = islice(_APPLIED.finditer(text.text), 20 * MOST)
     found = {m["name"]: m["by"] for m in applied if defined(_bare(m["name"])) and moves(_bare(m["by"]))}
     if "=" not in whole or any(moves(_bare(x)) for x in primed):
@@ -77,7 +81,7 @@ def with_primes_of_slopes(
         found |= dict.fromkeys(free[:MOST], _by(legend))
     elif _DOTS.search(whole) is not None:
         found |= _stated(text.text, moves, lambda x: defined(x) or not taken(x))
-    edits: list[Edit] = [] if legend is None or not found else [(*legend.span(), "")]
+    edits: list[Edit] = [] if legend is None or not found else [(*legend.span(), "primes are slopes")]
     for name, by in found.items():
         for match, new in _slopes(text.text, name, by, latex=latex, valued=defined(_bare(name))):
             before = _RUN.search(text.text, max(0, match.start() - 8), match.start())
