@@ -66,7 +66,7 @@ from lagrangian.check.names.spelling import (
     values_of,
 )
 from lagrangian.check.names.values_at_rest import without_balanced_weights
-from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
+from lagrangian.check.numbers_beside import numbers_alone, with_definitions_in_values, with_numbers_beside
 from lagrangian.check.own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
@@ -134,7 +134,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     judged, added = with_energies_apart(truth, judged)
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
-    judged = with_given_slopes(truth, judged)
+    judged = with_definitions_in_values(truth, with_given_slopes(truth, judged))
     written = _filled(truth, judged)
     truth = truth.within(region(truth, written))
     verdict = _checked(truth, judged, written, hint, explain)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -84,6 +84,27 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         hint=first.hint,
         sure=wrong.sure,
     )
+
+
+def with_definitions_in_values(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines in which the system's own ``l``, defined by a coordinate and letters, is in numbers where the line is.
+
+    A line that has numbers for all parameters, and l, names no letter: l² = 11.68 − 7.68 cos θ, 3.84 sin θ/l.
+    """
+    defined = {d.symbol for d in truth.model.definitions if d.moving}
+    values = values_of(truth, ()) if defined else {}
+
+    def put(expr: sp.Expr) -> sp.Expr:
+        return cast("sp.Expr", truth.model.expand(expr).xreplace(values))
+
+    made: list[AnsweredLine] = []
+    for line in lines:
+        if not values or not line.expr.has(*defined) or not in_numbers(truth, [line]):
+            made.append(line)
+            continue
+        sides = None if line.sides is None else tuple(map(put, line.sides))
+        made.append(replace(line, expr=put(line.expr), sides=cast("Any", sides)))
+    return tuple(made)
 
 
 def _gives_value(truth: Reference, line: AnsweredLine) -> bool:

@@ -248,7 +248,8 @@ def differentiated(name: str, of: str) -> list[str]:
     d, by = r"(?:\\mathrm\s?\{d\}|\\mathrm\s{1,3}d|\\partial|d|∂)\s?", rf"{_letter(of)}(?![\w'’′\u0307(])"
     applied = rf"{_spelled(name)}\s?{_argument(of)}"
     whole, begins = rf"(?:{applied}|{_spelled(name)})", r"(?<![^\W\d])(?<!\\)"
-    inner = rf"(?:{applied}|(?:\\left)?[(\[]\s?{whole}\s?(?:\\right)?[)\]]|{_spelled(name)}(?=\s{{0,3}}&?\s{{0,3}}=))"
+    alone = rf"{_spelled(name)}(?=\s{{0,3}}(?:&?\s{{0,3}}=|[)\]]))"
+    inner = rf"(?:{applied}|(?:\\left)?[(\[]\s?{whole}\s?(?:\\right)?[)\]]|{alone})"
     fraction = r"\\[dt]?frac\s?\{{\s?{}\s?\}}\s?\{{\s?{}\s?\}}"
     return [
         rf"{begins}{d}{whole}\s?/\s?{d}{by}",

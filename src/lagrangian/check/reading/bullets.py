@@ -80,10 +80,18 @@ class Bullets:
         line = self._lines[k]
         if self._marks[k] == "•" or (self._marks[k] in "-–*" and _BY_TIME.match(line, self._ends[k])):
             return True
-        if _SAID.match(line, self._ends[k]):
+        if _SAID.match(line, self._ends[k]) or self._is_starred(k):
             return True
         stated = _STATED.match(line, self._ends[k])
         return stated is not None and names(stated["name"]) and self._marks[k] in "-–*" and not accelerates_in(line)
+
+    def _is_starred(self, k: int) -> bool:
+        """Whether a line, and all above it in its paragraph, begin with *: the first one goes on with no product."""
+        while k >= 0 and self._lines[k].strip():
+            if self._marks[k] != "*":
+                return False
+            k -= 1
+        return True
 
     def _beside_sure_ones(self) -> Iterator[int]:
         """The lines with the mark of one in their paragraph that is a bullet, unless they go on with the line above."""

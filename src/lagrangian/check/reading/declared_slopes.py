@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 from itertools import islice
 
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key
 
@@ -19,7 +20,7 @@ _DECLARED = re.compile(
     r"[ \t]*+&?[ \t]*+(?:=|:=|\\equiv|≡)[ \t]*+&?[ \t]*+"
     rf"(?:\\[dt]?frac[ ]?\{{[ ]?{_D}(?P<above>{_NAME})[^{{}}]{{0,12}}\}}[ ]?\{{[ ]?{_D}(?P<below>{_NAME})[ ]?\}}"
     rf"|(?P<open>\()?{_D}(?P<over>{_NAME})[ ]?/[ ]?{_D}(?P<under>{_NAME})(?![\w'’′\u0307\u0308(])(?(open)\)))"
-    r"(?P<behind>[ \t]*+&?[ \t]*+(?:=|(?=[,;.:\n$)]|\\\]|\\\)|\\\\|\\q?quad|\\end|\Z)))"
+    r"(?P<behind>[ \t]*+&?[ \t]*+(?:=|(?=[,;.:\n$)]|\\\]|\\\)|\\\\|\\q?quad|\\end|(?=(?:and|und|where|with)\b)|\Z)))"
 )
 _IN_WORDS = re.compile(
     rf"(?<![\w\\'’′^*/+)}}\]−-])(?P<name>{_NAME})[ ]?['’′][ ]{{1,2}}(?:(?:is|be|for|as)[ ])?(?:its|the)[ ]"
@@ -27,6 +28,14 @@ _IN_WORDS = re.compile(
     rf"(?P<under>{_NAME})(?![\w'’′\u0307\u0308(])"
 )
 """The same in words: q' its derivative with respect to θ."""
+_QUOTIENT = (
+    r"(?:[d∂][ ]?(?P<over>{of})[ ]?/[ ]?[d∂][ ]?(?P<under>{by})|∂²(?P<top>{of})/∂(?P<below>{by})²)"
+    r"(?![\w'’′\u0307\u0308(])"
+)
+_SPELLED = re.compile(
+    rf"(?<![\w\\'’′^*/+)}}\]−∂-])(?P<name>{_NAME})[ ]?:?=[ ]?" + _QUOTIENT.format(of=_NAME, by=r"[^\W\d_][^\W²]{0,15}+")
+)
+"""A name in plain text that is given such a derivative: dp = dp/dtheta, ldd = ∂²l/∂θ²."""
 _IN_COMMAND = re.compile(r"\\[A-Za-z]*\Z")
 """What makes a letter the end of a command."""
 _MOST = 12
@@ -56,7 +65,8 @@ def with_declared_slopes(
         first, second = (rf"\frac{{\partial {x}}}{{\partial {by}}}" if latex else f"∂{x}/∂{by}" for x in (name, slope))
         goes_on = "=" in match.groupdict().get("behind", "")
         apart_by = ", \\quad" if latex else ","
-        edits.append((*match.span(), f"{slope} = {first}{f'{apart_by} {first} =' if goes_on else ''}"))
+        space = " " if match.group()[-1].isspace() else ""
+        edits.append((*match.span(), f"{slope} = {first}{f'{apart_by} {first} =' if goes_on else ''}{space}"))
         applied = rf"(?:[ ]?(?:\\left)?\([ ]?{re.escape(by)}[ ]?(?:\\right)?\))?"
         before = "" if latex else r"(?<![\w\\])"
         form = rf"{before}{re.escape(name)}[ ]?(?P<primes>['’′]{{1,2}}|″)(?!['’′″]){applied}"
@@ -71,6 +81,25 @@ def with_declared_slopes(
                 edits.append((*use.span(), f" {second} " if twice else f"{slope} "))
         shown = "ℓ" if _bare(name) == "ell" else _bare(name)
         told.setdefault(f"{shown}' was read as the slope of {shown} by {_bare(by)}, as the answer says.")
+    return text.edited(apart(sorted(edits)))
+
+
+def with_spelled_slopes(text: TracedText, moves: Callable[[str], bool], told: dict[str, None]) -> TracedText:
+    """Return an answer in plain text in which names that spell rates, and that it says to be slopes, have other names:
+    dp, pd after dp = dp/dθ; notes tell these. ``moves`` says whether a name is a coordinate."""
+    edits: list[Edit] = []
+    for match in islice(_SPELLED.finditer(text.text[:_LONGEST]), _MOST):
+        name, of, by = match["name"], match["over"] or match["top"], match["under"] or match["below"]
+        if not moves(by) or moves(of) or all(key(stem) != key(of) for _, stem in spelled_rates(name)):
+            continue
+        slope = f"{of}_slope{'s' if match['top'] else ''}"
+        quotient = _QUOTIENT.format(of=re.escape(of), by=re.escape(by))
+        for use in re.finditer(rf"(?<![\w\\∂])(?:{quotient}|{re.escape(name)}(?![^\W²³]))", text.text):
+            whole = use.group() == name
+            edits.append((*use.span(), slope if whole else f"∂{of}/∂{by}" if use["over"] else use.group()))
+        told.setdefault(
+            f"{name} was read as the {'second ' if match['top'] else ''}slope of {of} by {by}, as the answer says."
+        )
     return text.edited(apart(sorted(edits)))
 
 

@@ -74,6 +74,11 @@ def _symbol(name: str, names: Names) -> object:
     return names.scope[meant[0]] if len(meant) == 1 and not dots else None
 
 
+def is_defined_by_one(name: str, names: Names) -> bool:
+    """Whether the system defines a quantity by one coordinate."""
+    return _coordinate_of(name, names) is not None
+
+
 def _coordinate_of(name: str, names: Names) -> object:
     """The only coordinate by which the system defines a quantity; None of any other name."""
     symbol = _symbol(name, names)

@@ -175,6 +175,8 @@ class Meaning(ExpressionReader):
         variable = self.value(by)
         model = self.names.model
         whole = model.expand(self.scalar(inner))
+        if inner.data == "partial" and any(map(is_placeholder, bounded.atoms(whole, AppliedUndef))):
+            return slope(f"{key(inner.children[0])} {variable}", variable)  # ∂²V/∂θ² of a V without a value
         known = {x.symbol for x in (*model.parameters, *model.inputs, *model.coordinates)}
         own = bounded.letters(whole) - known - {time}
         if own or not isinstance(variable, AppliedUndef) or self.names.is_unknown(variable):
@@ -324,7 +326,10 @@ class Meaning(ExpressionReader):
         if (general := next((v for _, _, v in values if is_vector(v)), None)) is not None:
             return general
         total: Value = sp.S.One
+        crossing = False  # from × up to the next column: r × S (b - a) / l
         for operator, child, value in values:
+            if operator is not None and self.source.text.startswith(("×", "\\times"), start_of(operator)):
+                crossing = isinstance(total, MatrixBase)
             if operator is not None and operator == "/":
                 if isinstance(value, MatrixBase) or bounded.is_zero(value):
                     self.fail("a matrix can be divided only by a number that is not 0", child)
@@ -333,8 +338,8 @@ class Meaning(ExpressionReader):
             listed = False
             if both and total.shape == value.shape and value.shape[1] == 1:
                 listed = self.source.text.startswith("*", start_of(operator))
-                if value.shape[0] in (2, 3) and self.source.text.startswith(("×", "\\times"), start_of(operator)):
-                    total = crossed(total, value)
+                if value.shape[0] in (2, 3) and crossing:
+                    total, crossing = crossed(total, value), False
                     self._spend(total, child)
                     continue
                 total = total.T  # a list in front of a column is a row

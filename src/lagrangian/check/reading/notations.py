@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection
+from functools import partial
 
 from lagrangian.check.reading.applied import with_functions_applied, with_slopes_by_arguments, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
@@ -12,8 +13,8 @@ from lagrangian.check.reading.canonical import with_routhian
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import with_typed_arrays, without_copying, without_leaders, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
-from lagrangian.check.reading.declared_slopes import with_declared_slopes
-from lagrangian.check.reading.defined_functions import with_slopes_of_definitions
+from lagrangian.check.reading.declared_slopes import with_declared_slopes, with_spelled_slopes
+from lagrangian.check.reading.defined_functions import is_defined_by_one, with_slopes_of_definitions
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
@@ -43,7 +44,7 @@ from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.named_sums import with_named_sums
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.operators import without_operators
-from lagrangian.check.reading.own_derivatives import with_own_derivatives
+from lagrangian.check.reading.own_derivatives import with_own_derivatives, with_second_derivatives
 from lagrangian.check.reading.own_lagrangian import with_own_lagrangian
 from lagrangian.check.reading.own_length import with_own_length
 from lagrangian.check.reading.places_of_bodies import with_places_of_bodies
@@ -172,10 +173,12 @@ def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], l
         return key(name) in moving
 
     if not latex:
-        applied = with_functions_applied(text, taken, names.notes)
+        applied = with_functions_applied(with_second_derivatives(text, moves, taken), taken, names.notes)
+        applied = with_spelled_slopes(applied, moves, names.notes)
         text = with_own_derivatives(with_slopes_by_arguments(applied, moves, taken, names.notes), moves, taken)
     text = with_declared_slopes(text, moves, taken, names.notes, latex=latex)
-    text = with_primes_of_slopes(text, moves, taken, names.notes, latex=latex)
+    defined = partial(is_defined_by_one, names=names)
+    text = with_primes_of_slopes(text, moves, taken, defined, names.notes, latex=latex)
     text = with_primes_as_slopes(text, taken, names.changes, latex=latex)
     return with_slopes_of_definitions(text, names, latex=latex)
 

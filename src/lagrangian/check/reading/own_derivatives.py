@@ -21,6 +21,35 @@ MOST = 40
 """The most derivatives that are looked at."""
 
 
+_TWO = r"(?:²|\^[ ]?(?:2|\(2\))|\*\*[ ]?2|2)"
+_SECOND = re.compile(
+    rf"(?<![^\W\d])(?P<d>[d∂])[ ]?{_TWO}[ ]?(?P<of>{_NAME})(?:\([ ]?[^\W\d_]\w{{0,15}}[ ]?\))?"
+    rf"[ ]?/[ ]?(?P<open>\()?[d∂][ ]?(?P<by>[^\W\d_][^\W²³]{{0,15}}?)[ ]?{_TWO}(?(open)[ ]?\))"
+    r"(?![\w²³'’′\u0307\u0308(])"
+)
+"""A second derivative by one name: d²l/dθ², ∂^2 V/∂θ^2, d2l/dtheta2."""
+
+
+_TWICE_OF = re.compile(
+    rf"(?<![^\W\d])(?P<d>[d∂])[ ]?{_TWO}[ ]?/[ ]?[d∂][ ]?(?P<by>[^\W\d_][^\W²³]{{0,15}}?)[ ]?{_TWO}[ ]?"
+    rf"(?P<open>\()?[ ]?(?P<of>{_NAME})(?(open)[ ]?\)|(?=[ ]{{0,3}}(?:=|\))))(?![\w²³'’′\u0307\u0308(])"
+)
+"""The same with an operator, in brackets or alone on its side: d²/dθ² l = …."""
+
+
+def with_second_derivatives(
+    text: TracedText, coordinate: Callable[[str], bool], taken: Callable[[str], bool]
+) -> TracedText:
+    """Return a plain text in which second derivatives by coordinates are written ∂²l/∂θ²."""
+
+    def round_signs(match: re.Match[str]) -> str:
+        factors = match["d"] == "d" and taken(f"d{match['of']}")
+        fits = coordinate(match["by"]) and not coordinate(match["of"]) and not factors
+        return f"∂²{match['of']}/∂{match['by']}²" if fits else match.group()
+
+    return text.sub(_SECOND, round_signs).sub(_TWICE_OF, round_signs)
+
+
 def with_own_derivatives(
     text: TracedText, coordinate: Callable[[str], bool], taken: Callable[[str], bool]
 ) -> TracedText:

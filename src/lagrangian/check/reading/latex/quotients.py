@@ -34,6 +34,9 @@ class LatexFractions(LatexSymbols):
 
     def _frac(self, token: AnswerToken) -> Tree:
         """Read a fraction, which may be a derivative: d/dt, d²x/dt² and ∂L/∂ẋ."""
+        if (twice := self._twice(*self._parts())) is not None:
+            self._put_slope_of_slope(*twice)
+            return self._slope_of_bracket(token)
         top, bottom = self._parts()
         order = _differential_of_time(bottom)
         if order and _begins_with_d(top):
@@ -47,16 +50,17 @@ class LatexFractions(LatexSymbols):
 
     def _put_in_fraction(self) -> None:
         """Make a fraction of a derivative that is written on one line, if it is next: dx/dt, d²x/dt², d(…)/dt, d/dt."""
-        if not _begins_with_d(self.tokens[self.i : self.i + 1]) or self.known("dt"):
+        twice = self.next.kind == "partial" and self.ahead().text in ("^", "²")
+        if not (twice or _begins_with_d(self.tokens[self.i : self.i + 1])) or self.known("dt"):
             return
         over = self._end_of_differential()
         written = "".join(x.text for x in self.tokens[self.i : over])
         factor = written == "dd" and self.known("d") and not self.names.changes("d")  # d d/dt(x) is d ẋ
         if self.tokens[over].kind != "over" or factor:
             return
-        for end in range(min(over + 6, len(self.tokens) - 1), over + 1, -1):
+        for end in range(min(over + 7, len(self.tokens) - 1), over + 1, -1):
             top, bottom = self.tokens[self.i : over], self.tokens[over + 1 : end]
-            if _differential_of_time(bottom) or self._is_slope(top, bottom):
+            if _differential_of_time(bottom) or self._is_slope(top, bottom) or self._twice(top, bottom):
                 opened, closed = (AnswerToken(x, x, self.next.start, self.next.start) for x in "{}")
                 frac = replace(opened, kind="frac", text="frac")
                 self.tokens[self.i : end] = [frac, opened, *top, closed, opened, *bottom, closed]
@@ -67,7 +71,7 @@ class LatexFractions(LatexSymbols):
         at = self.i + 1
         at += 1 if self.tokens[at].kind == "raised" else 0
         at = self._behind(at + 1) if self.tokens[at].kind == "^" else at
-        if len(self.next.text) == 1 and self.tokens[at].kind != "over":
+        if (len(self.next.text) == 1 or self.next.kind == "partial") and self.tokens[at].kind != "over":
             while self.tokens[at].kind in ("accent", "decoration"):
                 at += 1
             at = self._behind(at)
@@ -166,6 +170,32 @@ class LatexFractions(LatexSymbols):
         opens = self.tokens[behind].kind in ("(", "[")
         return len(top) == 1 and alone and opens and under[:1] in ("d", bottom[0].text[:1]) and self.names.changes(by)
 
+    def _twice(
+        self, top: list[AnswerToken], bottom: list[AnswerToken]
+    ) -> tuple[list[AnswerToken], list[AnswerToken]] | None:
+        """What a second derivative by a coordinate, d²l/dθ², differentiates, and by what; None of another fraction."""
+        over, under = _without_d(top), _without_d(bottom)
+        if over is None or under is None:
+            return None
+        of, by = _without_two(over, behind=False), _without_two(under, behind=True)
+        if not of or not by or not self.names.changes("".join(x.text for x in by)):
+            return None
+        applied = [x.text for x in of[-len(by) - 2 :]] == ["(", *(x.text for x in by), ")"]
+        return of[: -len(by) - 2] if applied else of, by
+
+    def _put_slope_of_slope(self, of: list[AnswerToken], by: list[AnswerToken]) -> None:
+        """Write ∂/∂θ (∂l/∂θ) in the place of the two parts of a fraction."""
+        end = self._behind(self._behind(self.i))
+        at = self.next.start
+
+        def sign(kind: str, text: str) -> AnswerToken:
+            return AnswerToken(kind, text, at, at)
+
+        opened, closed, d = sign("{", "{"), sign("}", "}"), sign("partial", "∂")
+        below = [opened, d, *by, closed]
+        once = [sign("frac", "frac"), opened, d, *of, closed, *below]
+        self.tokens[self.i : end] = [opened, d, closed, *below, sign("(", "("), *once, sign(")", ")")]
+
     def _slope_of_bracket(self, token: AnswerToken) -> Tree:
         """Read d/dθ(…), the derivative of what stands in the bracket by a coordinate."""
         self._skip_part()
@@ -190,8 +220,9 @@ class LatexFractions(LatexSymbols):
         if not over[:1] == under[:1] == "d" or not self.names.changes(by) or self.known(over) or self.known(under):
             return False
         factors = self.names.known("d") and key(of) not in self.names.scope.taken and not self.names.is_own(of)
-        own = bool(of) and not self.names.scope.meanings(of)[0] and not (factors and len(key(of)) > 1)
-        return own or of in _ENERGIES
+        meant = self.names.scope.meanings(of)[0] if of else ()
+        own = bool(of) and not meant and not (factors and len(key(of)) > 1)
+        return own or of in _ENERGIES or any(d.moving and d.name in meant for d in self.names.model.definitions)
 
     def _partial_fraction(self, token: AnswerToken) -> Tree:
         energy = self._after_d()
@@ -229,6 +260,29 @@ class LatexFractions(LatexSymbols):
 def _energy(tree: Tree) -> str:
     of, *primes = inside(tree).children
     return dotted(f"{of}{primes[0] or '' if primes else ''}")
+
+
+def _without_d(part: list[AnswerToken]) -> list[AnswerToken] | None:
+    """What is behind the d or ∂ with which one part of a fraction begins; None if it does not begin so."""
+    inner = list(part)
+    while (
+        two := next((k for k in range(len(inner) - 2) if [x.text for x in inner[k : k + 3]] == ["{", "2", "}"]), -1)
+    ) > 0:
+        inner[two : two + 3] = inner[two + 1 : two + 2]
+    if not inner or not (inner[0].kind == "partial" or _begins_with_d(inner)):
+        return None
+    first, rest = inner[0], inner[1:]
+    behind = first.text[1:] if first.kind != "partial" else ""
+    return [replace(first, text=behind, start=first.start + 1), *rest] if behind else rest
+
+
+def _without_two(part: list[AnswerToken], *, behind: bool) -> list[AnswerToken] | None:
+    """The tokens without the square in front of them or ``behind`` them; None if there is none."""
+    for two in (["²"], ["^", "2"]):
+        n = len(two)
+        if [x.text for x in (part[-n:] if behind else part[:n])] == two:
+            return part[:-n] if behind else part[n:]
+    return None
 
 
 def _begins_with_d(part: list[AnswerToken]) -> bool:

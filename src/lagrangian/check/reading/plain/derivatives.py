@@ -10,6 +10,7 @@ from lagrangian.check.reading.plain.conditions import PlainConditions
 from lagrangian.check.reading.plain.tokens import TOKEN
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.stated import energy_of
+from lagrangian.read.letters import dotted
 
 ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3, '"': 2}
 """How often each mark differentiates."""
@@ -64,6 +65,14 @@ class PlainDerivatives(PlainConditions):
         written = found[group].rstrip("'’′″‴\"")
         order += sum(ORDERS[c] for c in found[group][len(written) :])
         return name(written, found.start(group), order)
+
+    def _second_slope(self, token: AnswerToken) -> Tree:
+        """Read ∂²l/∂θ², the derivative of ∂l/∂θ."""
+        found = TOKEN.match(self.source.text, token.start)
+        assert found is not None
+        by = name(found["by2"], found.start("by2"))
+        once = node("partial", token.start, leaf("NAME", dotted(found["what2"]), token.start), by)
+        return node("derivative", token.start, once, by)
 
     def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
         """Read d(…)/dt, d²(…)/dt² or d(…)/dθ; None if no bracket or nothing of this follows."""

@@ -41,7 +41,7 @@ from lagrangian.read.explain import explain
 from lagrangian.read.letters import dotted, undotted
 
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
-_BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
+_BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial", "partial2"])
 _NUMBERS = frozenset(["number", "fraction"])
 MAX_RATES = 8
 """The most signs d/dt in front of each other."""
@@ -196,6 +196,8 @@ class PlainParser(PlainCalls):
                 assert found is not None
                 by = name(found["by"], found.start("by"), sum(ORDERS[c] for c in found["dots"]))
                 return node("partial", token.start, leaf("NAME", dotted(found["what"]), token.start), by)
+            case "partial2":
+                return self._second_slope(self.take())
         raise self.stopped(True)
 
     def _absolute(self) -> Tree:
