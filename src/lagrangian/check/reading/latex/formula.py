@@ -203,10 +203,6 @@ class LatexParser(LatexFractions):
 
     # -- symbols -----------------------------------------------------------------------------------------------------
 
-    def _is_letter(self, base: str) -> bool:
-        """Whether a sign that may be an operator is a name of the system, or one that the answer defines."""
-        return self.known(base) or key(base) in self.names.scope.taken
-
     def _symbol(self) -> Tree:
         """Read a name with its subscript, dots, primes and powers, or a product under dots."""
         start = self.next.start
@@ -216,8 +212,13 @@ class LatexParser(LatexFractions):
         if base == "diag" and self.next.kind == "(" and not self.known("diag"):
             made = inside(self._closed(")"))
             return diagonal(start, matrix_entries(made) or [made])
-        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self._is_letter(base):
-            return wrapped("variation", start, self._symbol_in_brackets())
+        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "("):
+            varied, at = not self._is_letter(base), self.i
+            if varied or self._of_work():
+                of = self._symbol_in_brackets()
+                if varied or self._moves(of):
+                    return wrapped("variation", start, of)
+            self.i = at
         if base == "e" and self.next.kind == "^" and not self._is_letter(base):
             self.take()
             return node("call", start, leaf("NAME", "exp", start), self._argument())
