@@ -32,7 +32,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
-from lagrangian.read.letters import key, normal
+from lagrangian.read.letters import normal
 
 _ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 _BEGINS_LISTED = "number fraction letters symbol upright accent decoration function frac sqrt { ( [ abs( begin partial"
