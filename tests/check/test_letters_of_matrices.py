@@ -13,6 +13,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
 from lagrangian.check.verdict import Status
 
 LATEX = r"""Let $w(\theta) = (r,\; 2 l\cos\theta)^T$ be the gradient of $\delta = r\beta + 2 l\sin\theta$,
@@ -99,3 +100,29 @@ def test_an_equation_with_a_column_that_is_not_given_is_told() -> None:
 def test_rows_of_matrices_still_must_fit() -> None:
     with pytest.raises(lg.ParseError):
         belt().check(PLAIN.replace("[tau; 0]", "[tau; 0; 0]"))
+
+
+ENTRIES = r"""\[ (M + m)\ddot x + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta + b\dot x = F \]
+\[ m l\ddot x\cos\theta + (J + m l^2)\ddot\theta - m g l\sin\theta = 0 \]
+\[ \mathbf M\ddot{\mathbf q} + \mathbf C\dot{\mathbf q} + \mathbf G = \boldsymbol\Xi \]
+\[ \mathbf q = \begin{bmatrix} x \\ \theta \end{bmatrix}, \quad
+\mathbf C = \begin{bmatrix} 0 & -m l\dot\theta\sin\theta \\ 0 & 0 \end{bmatrix} \]
+\[ \begin{aligned} \mathbf M_{11} &= M + m \\ \mathbf M_{12} &= \mathbf M_{21} = m l\cos\theta \\
+\mathbf M_{22} &= J + m l^2 \end{aligned} \]
+\[ \mathbf G = \begin{bmatrix} 0 \\ -m g l\sin\theta \end{bmatrix}, \quad
+\boldsymbol\Xi = \begin{bmatrix} F - b\dot x \\ 0 \end{bmatrix} \]"""
+
+
+@pytest.mark.parametrize("bold", [r"\mathbf ", r"\boldsymbol ", r"\bm "])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("", ""),
+        ("(M + m)", "(M - m)"),
+        (r"\boldsymbol\Xi =", r"\boldsymbol\Xi = -"),
+        (r"\cos\theta + (J", r"\cos\theta - (J"),
+    ],
+)
+def test_a_bold_letter_with_entries_is_no_mass(bold: str, old: str, new: str) -> None:
+    verdict = derivation("cart-pole").check(ENTRIES.replace(r"\mathbf ", bold).replace(old, new))
+    assert verdict.right is (not old), verdict.to_text()

@@ -232,7 +232,7 @@ class LatexParser(LatexFractions):
                 order += sum(_ORDERS[c] for c in primes.text)
             elif self.next.kind == "^" and (more := self._raised_primes()):
                 order += more
-            elif self.next.kind == "^" and base in ("T", "bold T") and self._starred():
+            elif self.next.kind == "^" and (base == "bold T" or base.partition("_")[0] == "T") and self._starred():
                 continue
             elif self.next.kind == "^" and exponent is None and self.ahead().kind != "accent":
                 exponent = (self.take(), self._argument())
