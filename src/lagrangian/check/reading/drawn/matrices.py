@@ -68,7 +68,7 @@ def _made(block: Sequence[str]) -> str | None:
 
 
 def _whole(rows: list[list[str]]) -> list[list[str]]:
-    """The rows of a matrix; all entries of a symmetric one in which those from the diagonal on are drawn, and a mark."""
+    """The rows of a matrix; of a symmetric one all, where those from the diagonal on are drawn, and a mark."""
     given = [[x for x in row if x != "sym."] for row in rows]
     if rows == given or any(len(row) != len(rows) - i for i, row in enumerate(given)):
         return rows
