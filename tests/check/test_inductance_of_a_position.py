@@ -50,3 +50,52 @@ $$ m \ddot x + \frac{{1}}{{2}} {SLOPE} \dot q^2 + k x = 0 $$
 )
 def test_an_inductance_and_its_slope_are_judged_as_such(answer: str, right: bool) -> None:
     assert solenoid().check(answer, hint=0).right is right
+
+
+@cache
+def choke() -> lg.Derivation:
+    s = lg.System("choke that saturates")
+    q = s.coordinate("q")
+    L, c, R = s.parameters("L c R")
+    s.inductor(charge=q, law=lambda i: L * i - c * i**3, name="coil")
+    s.resistor(R, charge=q)
+    s.voltage_source(s.input("u"), charge=q)
+    return s.derive()
+
+
+CHOKE = """psi = L q' - c q'^3
+CO = L q'^2/2 - c q'^4/4
+EN = psi q' - CO = L q'^2/2 - 3 c q'^4/4
+T* = L q'^2/2 - c q'^4/4
+(L - 3 c q'^2) q'' + R q' = u"""
+CHOKE_IN_LATEX = r"""\[ \psi = L\dot q - c\dot q^3, \qquad CO = \tfrac12 L\dot q^2 - \tfrac14 c\dot q^4 \]
+\[ \begin{aligned} EN &= \psi\dot q - CO \\ &= \tfrac12 L\dot q^2 - \tfrac34 c\dot q^4 \end{aligned} \]
+\[ T^* = CO \]
+\[ (L - 3 c\dot q^2)\ddot q + R\dot q = u \]"""
+
+
+@pytest.mark.parametrize(
+    ("answer", "co", "stored"),
+    [
+        (CHOKE, "T*_coil", "T_coil"),
+        (CHOKE, "T*_L", "T_L"),
+        (CHOKE.replace("CO =", "T* =", 1), "T*", "T"),
+        (CHOKE_IN_LATEX, r"T^{*}_{\mathrm{coil}}", r"T_{\mathrm{coil}}"),
+        (CHOKE_IN_LATEX, "T^*_1", "T_1"),
+        (CHOKE_IN_LATEX, r"T_{\text{coil}}^*", r"T_{\text{coil}}"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("", ""),
+        ("- CO", "+ CO"),
+        ("3 c q'^4/4", "c q'^4/4"),
+        (r"- \tfrac34 c", r"+ \tfrac34 c"),
+        ("c q'^4/4\nEN", "c q'^4/2\nEN"),
+    ],
+)
+def test_the_energy_of_a_coil_beside_its_coenergy(answer: str, co: str, stored: str, old: str, new: str) -> None:
+    written = answer.replace(old, new)
+    verdict = choke().check(written.replace("CO", co).replace("EN", stored))
+    assert verdict.right is (not old or written == answer), verdict.to_text()

@@ -13,6 +13,9 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
+from lagrangian.check.reading.drawn.matrices import without_drawings
+from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.verdict import Status
 
 LATEX = r"""Let $w(\theta) = (r,\; 2 l\cos\theta)^T$ be the gradient of $\delta = r\beta + 2 l\sin\theta$,
@@ -99,3 +102,83 @@ def test_an_equation_with_a_column_that_is_not_given_is_told() -> None:
 def test_rows_of_matrices_still_must_fit() -> None:
     with pytest.raises(lg.ParseError):
         belt().check(PLAIN.replace("[tau; 0]", "[tau; 0; 0]"))
+
+
+ENTRIES = r"""\[ (M + m)\ddot x + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta + b\dot x = F \]
+\[ m l\ddot x\cos\theta + (J + m l^2)\ddot\theta - m g l\sin\theta = 0 \]
+\[ \mathbf M\ddot{\mathbf q} + \mathbf C\dot{\mathbf q} + \mathbf G = \boldsymbol\Xi \]
+\[ \mathbf q = \begin{bmatrix} x \\ \theta \end{bmatrix}, \quad
+\mathbf C = \begin{bmatrix} 0 & -m l\dot\theta\sin\theta \\ 0 & 0 \end{bmatrix} \]
+\[ \begin{aligned} \mathbf M_{11} &= M + m \\ \mathbf M_{12} &= \mathbf M_{21} = m l\cos\theta \\
+\mathbf M_{22} &= J + m l^2 \end{aligned} \]
+\[ \mathbf G = \begin{bmatrix} 0 \\ -m g l\sin\theta \end{bmatrix}, \quad
+\boldsymbol\Xi = \begin{bmatrix} F - b\dot x \\ 0 \end{bmatrix} \]"""
+
+
+@pytest.mark.parametrize("bold", [r"\mathbf ", r"\boldsymbol ", r"\bm "])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("", ""),
+        ("(M + m)", "(M - m)"),
+        (r"\boldsymbol\Xi =", r"\boldsymbol\Xi = -"),
+        (r"\cos\theta + (J", r"\cos\theta - (J"),
+    ],
+)
+def test_a_bold_letter_with_entries_is_no_mass(bold: str, old: str, new: str) -> None:
+    written = ENTRIES.replace(old, new)
+    assert (written == ENTRIES) is (not old)
+    verdict = derivation("cart-pole").check(written.replace(r"\mathbf ", bold))
+    assert verdict.right is (not old), verdict.to_text()
+
+
+SPARSE = """M q'' + C q' + G = Q
+M11 = M + m
+M12 = M21 = m l cos(theta)
+M22 = J + m l^2
+C11 = b
+C12 = -m l theta' sin(theta)
+all other entries are 0
+G = [0; -m g l sin(theta)]
+Q = [F; 0]"""
+SPARSE_IN_LATEX = r"""\[ \mathbf M\ddot{\mathbf q} + \mathbf C\dot{\mathbf q} + \mathbf G = \mathbf Q \]
+\begin{align} \mathbf M_{11} &= M + m \\ \mathbf M_{12} &= \mathbf M_{21} = m l\cos\theta \\
+\mathbf M_{22} &= J + m l^2 \\ \mathbf C_{11} &= b \\ \mathbf C_{12} &= -m l\dot\theta\sin\theta \\
+& \text{all other entries are 0} \end{align}
+\[ \mathbf G = \begin{bmatrix} 0 \\ -m g l\sin\theta \end{bmatrix}, \quad
+\mathbf Q = \begin{bmatrix} F \\ 0 \end{bmatrix} \]"""
+
+
+@pytest.mark.parametrize("written", [SPARSE, SPARSE_IN_LATEX])
+@pytest.mark.parametrize("said", ["all other entries are 0", "The remaining elements are zero", "other entries vanish"])
+@pytest.mark.parametrize(("old", "new"), [("", ""), ("= -m l", "= m l"), ("= M +", "= M -"), ("= b", "= -b")])
+def test_entries_that_are_said_to_be_zero(written: str, said: str, old: str, new: str) -> None:
+    answer = written.replace("all other entries are 0", said).replace(old, new)
+    verdict = derivation("cart-pole").check(answer)
+    assert verdict.right is (not old), verdict.to_text()
+
+
+@pytest.mark.parametrize("last", ["⎣ sym.              c ⎦", "⎣            sym.   c ⎦"])
+def test_a_drawn_symmetric_matrix_may_begin_its_rows_at_the_diagonal(last: str) -> None:
+    drawn = f"    ⎡ a   m l cos θ   0 ⎤\nM = ⎢        b        d ⎥\n    {last}\n"
+    made = without_drawings(TracedText(drawn)).text
+    assert made.split() == [
+        "M",
+        "=",
+        "[a,",
+        "m",
+        "l",
+        "cos",
+        "θ,",
+        "0;",
+        "m",
+        "l",
+        "cos",
+        "θ,",
+        "b,",
+        "d;",
+        "0,",
+        "d,",
+        "c]",
+    ]
+    assert without_drawings(TracedText(drawn.replace("sym.", ""))).text == drawn.replace("sym.", "")

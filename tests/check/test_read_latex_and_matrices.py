@@ -204,3 +204,27 @@ def test_a_bold_command_without_braces_takes_one_letter() -> None:
     carts = derivation("lecture-3b")
     assert carts.check(f"{said}\n{rows}").right
     assert not carts.check(f"{said}\n{rows.replace('0&k', '0&-k')}").right
+
+
+@pytest.mark.parametrize(("sign", "right"), [("+", True), ("-", False)])
+@pytest.mark.parametrize("gap", [r"& \quad \quad {} ", r"& \quad ", r"&\qquad{}", r"\quad", "&", ""])
+@pytest.mark.parametrize("start", ["R &=", r"\dot p - Q &="])
+def test_a_side_that_goes_on_over_indented_rows(start: str, gap: str, sign: str, right: bool) -> None:
+    rows = rf"\[ {start} mL^2\ddot\theta \\ {gap} {sign} b\dot\theta \\ {gap} + mgL\sin\theta \\ &= 0 \]"
+    before = r"\[ p = m L^2\dot\theta, \qquad Q = -b\dot\theta - mgL\sin\theta \] "
+    verdict = derivation("pendulum").check(before * ("p" in start) + rows)
+    assert verdict.right is right, verdict.to_text()
+
+
+ONE_ROW = r"""\[ \mathbf M \ddot{\mathbf q} + \mathbf G = \mathbf A^T \boldsymbol\lambda \]
+\[ \mathbf M = \begin{bmatrix} m & 0 \\ 0 & m \end{bmatrix}, \quad \mathbf G = \begin{bmatrix} 0 \\ mg \end{bmatrix} \]
+\[ \mathbf A = \begin{bmatrix} x & y \end{bmatrix}, \quad
+\boldsymbol\gamma = \begin{bmatrix} \dot x^2 + \dot y^2 \end{bmatrix} \]
+\[ \boldsymbol\lambda = \begin{bmatrix} \lambda \end{bmatrix} \]
+\[ \boldsymbol\gamma + \mathbf A \ddot{\mathbf q} = 0 \]"""
+
+
+@pytest.mark.parametrize(("old", "new"), [("", ""), ("^2 + ", "^2 - "), ("^2 + ", "^2 + x")])
+def test_a_row_times_a_column_beside_a_matrix_of_one_entry(old: str, new: str) -> None:
+    verdict = derivation("rod-pendulum").check(ONE_ROW.replace(old, new))
+    assert verdict.right is (not old), verdict.to_text()

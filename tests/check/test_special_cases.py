@@ -13,6 +13,7 @@ from small_systems import rod
 from test_beside_at_rest import FLIES, helicopter
 
 import lagrangian as lg
+from built_in import derivation
 from lagrangian.check.reference import truth_of
 from lagrangian.check.special_cases import INFINITE, follows
 from lagrangian.check.verdict import Status
@@ -152,3 +153,19 @@ def test_small_motions_about_a_tilted_rest_are_of_first_order_in_every_angle() -
     second = "m l^2 theta'' + m l cos(alpha) x'' + m g l theta = 0"
     assert derivation.check(exact + small + second).right
     assert not derivation.check(exact + small.replace("cos(alpha)", "sin(alpha)") + second).right
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Divided by sin θ, which fails where sin θ = 0. So the equation above is kept.",
+        "This cannot be solved where sin θ = 0 or cos θ = 0, at the ends.",
+        "It fails wherever sin(θ) = 0",
+        "Dividing by it fails where\nsin θ = 0.",
+    ],
+)
+def test_where_a_function_vanishes_is_no_equation(said: str) -> None:
+    row = "m L^2 θ'' + b θ' + m g L sin θ = 0"
+    assert derivation("pendulum").check(f"{row}\n{said}").right
+    assert not derivation("pendulum").check(f"{row.replace('+ b', '- b')}\n{said}").right
+    assert not derivation("pendulum").check(f"{row.replace('sin θ', 's')}\nwhere s = cos θ = 0").right

@@ -1,8 +1,10 @@
 """Lines of virtual work, δW = F δx − b ẋ δx, are judged: a wrong one is a wrong Ξ."""
 
 import pytest
+import sympy as sp
 from small_systems import cart
 
+import lagrangian as lg
 from built_in import derivation
 from lagrangian import System
 
@@ -160,3 +162,37 @@ def test_equations_below_each_other_that_begin_with_a_minus_are_two() -> None:
     second = r"& -l\ddot\phi-\ddot x\cos\phi-g\sin\phi=0"
     assert cart().check(rf"\begin{{align}} {first}\\ {second} \end{{align}}").right
     assert not cart().check(rf"\begin{{align}} {first}\\ {second.replace('-g', '+g')} \end{{align}}").right
+
+
+WORK_OF_DELTA = r"""\[ \delta W_M = M\,\delta\delta, \]
+\[ \delta W_c = -c\dot\delta\,\delta \delta + N \sin(\delta)\,\delta x \]
+\[ m\ddot x = N\sin\delta, \qquad J\ddot\delta + c\dot\delta = M \]
+"""
+
+
+def _rudder() -> lg.Derivation:
+    s = System("a ship's rudder, whose angle is δ")
+    x, delta = s.coordinates("x delta")
+    m, J, c = s.parameters("m J c")
+    at = s.point("C", (x, 0))
+    s.particle(m, at=at, name="ship")
+    s.kinetic(J * delta.diff() ** 2 / 2, name="rudder")
+    s.damper(c, deflection=delta, name="bearing")
+    s.force(s.input("M"), deflection=delta, name="motor")
+    s.force((s.input("N") * sp.sin(delta), 0), at=at, name="flow")
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        ("", "", 0),
+        (r"M\,\delta\delta", r"-M\,\delta\delta", 1),
+        (r"-c\dot\delta\,\delta \delta", r"c\dot\delta\,\delta \delta", 2),
+        (r"N \sin(\delta)\,\delta x", r"N \cos(\delta)\,\delta x", 2),
+    ],
+)
+def test_displacements_of_a_coordinate_that_is_called_delta(old: str, new: str, line: int) -> None:
+    verdict = _rudder().check(WORK_OF_DELTA.replace(old, new) if old else WORK_OF_DELTA)
+    assert verdict.right is (line == 0), verdict.to_text()
+    assert {f.line.number for f in verdict.findings if not f.status.right} == ({line} if line else set())

@@ -47,7 +47,7 @@ def sheet_checks(
         unread = Check(what, None, "not checked: equations in named quantities are not read as an answer")
         return unread, *_sheets(own.model, question), *_described(own.model)
     (whole,) = printed_checks(own, {"whole": solution("markdown", False)})
-    if whole.holds is None:  # what a matrix to a power says, no answer says: then its results alone
+    if whole.holds is None:  # a page may be too long for an answer: then its results alone
         (whole,) = printed_checks(own, {"brief": solution("markdown", True)})
     pages = {name: solution(name.lower(), True) for name in ("text", "LaTeX")}
     rest = printed_checks(own, {**pages, "HTML": as_markdown(solution("html", True))})

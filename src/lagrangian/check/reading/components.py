@@ -47,6 +47,11 @@ def is_component(written: str, points: Collection[str]) -> bool:
     return any((m := form.fullmatch(written)) is not None and key(m["of"]) in points for form in _FORMS)
 
 
+def has_entries(matrix: str, defined: Collection[str]) -> bool:
+    """Whether an answer defines entries of a matrix, M11 of M, given by their keys: then a bold M is no mass."""
+    return any(x.startswith(matrix) and x[len(matrix) :].isdigit() for x in defined)
+
+
 def component_of(written: str, matrix: Callable[[str], object]) -> sp.Expr | None:
     """The component of a column of the answer that a name means: S_x, x_S or xS of S = (…, …); None for others."""
     for form in _FORMS:

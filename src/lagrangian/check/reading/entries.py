@@ -16,6 +16,10 @@ from lagrangian.check.reading.name_patterns import LOWERED
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
+_BOLD_ENTRY = re.compile(
+    r"\\(?:mathbf|boldsymbol|bm)[ ]?\{?[ ]?(?P<name>[A-Za-z])[ ]?\}?[ ]?_\{?(?P<place>[1-6]{2})\}?(?=\s*&?\s*=(?!=))"
+)
+_DELIMITED = re.compile(r"\$|\\[\[(]|\\begin\{(?![bBpvV]?matrix|small|array|cases|aligned)")
 _MATRIX = re.compile(r"(?<![\w\\.])([A-Za-z]\w{0,9})\s*=\s*\[")
 _MATRIX_IN_LATEX = re.compile(r"(?<![\w\\.])([A-Za-z])\s*&?=\s*(?:\\left\s*[\[(]\s*)?\\begin\{[bp]?(?:matrix|array)\}")
 _DETERMINANT = re.compile(
@@ -41,6 +45,13 @@ _SIDE = (
     r"^(?![^\n]*∂)[^\n]*[=+-][ \t]*(?:\*\*)?NAME(?![\w(])(?:\*\*)?[ \t]*"
     r"(?:=|[.,;:]?[ \t]*$|,?[ \t]+(?:with|where|in which|mit|wobei|wo)\b)"
 )
+_REST_ZERO = re.compile(
+    r"(?:(?:all|the)[ \t]+){0,2}(?:other|remaining)[ \t]+(?:entries|elements|components|ones)"
+    r"[ \t]+(?:(?:are|be)[ \t]+(?:all[ \t]+)?(?:0(?![.\d])|zero)|vanish)"
+    r"|alle[ \t]+(?:anderen|übrigen)[ \t]+(?:Einträge|Elemente)[ \t]+(?:sind[ \t]+(?:0(?![.\d])|null)|verschwinden)",
+    re.IGNORECASE,
+)
+"""What says that the entries that are not given are 0."""
 MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 MOST_MATRICES = 60
@@ -171,7 +182,8 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
 
     A column is a side of an equation that is no general one with ∂, or is added there: T = T_1 + T_2 is none.
     ``count`` is the number of coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is
-    added, which is used in front of a column, M*q'' or M*[x''; y''].
+    added, which is used in front of a column, M*q'' or M*[x''; y'']. Of a matrix the entries that are not given may be
+    said to be 0.
     """
     if not 2 <= count <= MOST:
         return written
@@ -179,15 +191,33 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
     for match in _ENTRY.finditer(written.text):
         found.setdefault(match["name"], {}).setdefault(match["place"].translate(LOWERED), match.group().strip())
     given = set(_MATRIX.findall(written.text))
-    numbers = [str(k + 1) for k in range(count)]
+    numbers, zero = [str(k + 1) for k in range(count)], "0" if _REST_ZERO.search(written.text) else None
     added: list[str] = []
     for name, entries in found.items():
         if name in given:
             continue
-        rows = [[entries.get(i + j) for j in numbers] for i in numbers]
+        rows = [[entries.get(i + j, zero if len(max(entries)) > 1 else None) for j in numbers] for i in numbers]
         column = [entries.get(i) for i in numbers]
         if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}{_COLUMN}", written.text):
             added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
         elif all(column) and not taken(name) and re.search(_SIDE.replace("NAME", name), written.text, re.MULTILINE):
             added.append(f"{name} = [" + "; ".join(map(str, column)) + "]\n")
     return written.edited([(0, 0, "".join(added))] if added else [])
+
+
+def entered_in_latex(written: TracedText, count: int) -> TracedText:
+    """Return an answer in LaTeX with a statement in front for each matrix in bold of which it gives all entries that
+    are not said to be 0, and which is used in front of rates: \\mathbf{M}\\ddot{q}."""
+    found: dict[str, dict[str, str]] = {}
+    for match in _BOLD_ENTRY.finditer(written.text) if 2 <= count <= MOST else ():
+        found.setdefault(match["name"], {}).setdefault(match["place"], match.group().strip())
+    numbers, zero = [str(k + 1) for k in range(count)], "0" if _REST_ZERO.search(written.text) else None
+    added, around = "", "$$" if _DELIMITED.search(written.text) else ""
+    for name, entries in found.items():
+        bold = rf"\\(?:mathbf|boldsymbol|bm)\s?\{{?\s?{name}\s?\}}?"
+        rows = [[entries.get(i + j, zero) for j in numbers] for i in numbers]
+        used = re.search(rf"{bold}\s?(?:\\,)?\s?\\d?dot(?![a-z])", written.text)
+        if all(map(all, rows)) and used and not re.search(rf"{bold}\s*&?=", written.text):
+            listed = r" \\ ".join(" & ".join(map(str, row)) for row in rows)
+            added += rf"{around}\mathbf{{{name}}} = \begin{{bmatrix}} {listed} \end{{bmatrix}}{around}" + "\n"
+    return written.edited([(0, 0, added)] if added else [])

@@ -37,11 +37,9 @@ class Meaning(ExpressionReader):
 
     def __init__(self, source: Source, names: Names, budget: ReadingBudget, kind: str | None = None) -> None:
         super().__init__(source, names.scope)
-        self.of_matrix = False
         self.names, self.budget, self.energy = names, budget, kind in ENERGIES
-        self.slopes: dict[str, str] = {}
-        """The names of the answer, functions of one coordinate, whose primes are slopes."""
-        self._done: dict[int, Value] = {}
+        self.of_matrix, self._done = False, dict[int, Value]()
+        self.slopes = dict[str, str]()  # names of the answer, functions of one coordinate, whose primes are slopes
 
     def value(self, node: Node) -> Value:
         """The expression or matrix of a node, computed once."""
@@ -308,7 +306,9 @@ class Meaning(ExpressionReader):
                     x if x.shape[1] == 1 else x.T for x in cast("tuple[Any, Any]", (total, value))
                 )  # lists of as many entries
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
-            if total is not None and shapes[0] != shapes[1]:
+            if set(shapes) == {(1, 1), "a number"} and total is not None:
+                total, value = (x[0] if isinstance(x, MatrixBase) else x for x in (total, value))  # a γ of one row
+            elif total is not None and shapes[0] != shapes[1]:
                 if self.names.matrices and all(self.names.scope.meanings(x)[0] for x, _ in names_in(node)):
                     self._done.clear()
                     return self._of_system(node)

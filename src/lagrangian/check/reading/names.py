@@ -14,7 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
-from lagrangian.check.reading.components import component_of
+from lagrangian.check.reading.components import component_of, has_entries
 from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.name_hints import factors_of, hint_for
 from lagrangian.check.reading.nodes import names_in, start_of
@@ -224,12 +224,11 @@ class Names:
             return kind, ENERGIES[kind] if given is None else given, dots
         if (coordinate := self.force(base)) is not None:
             return base, generalized_force(coordinate), dots
-        if base in PI:
-            return "pi", sp.pi, dots
-        if base == "t":
-            return "t", time, dots
-        if base.startswith("bold "):  # a bold letter that is not a matrix of this answer
-            if not self.scope.meanings(base[5:])[0] and key(base[5:]) not in self.given_matrices:
+        if base in PI or base == "t":
+            return ("pi", sp.pi, dots) if base in PI else ("t", time, dots)
+        if base.startswith(BOLD):  # a bold letter that is not a matrix of this answer
+            plain = self.scope.meanings(base[5:])[0] and not has_entries(key(base), self.defined)
+            if not plain and key(base[5:]) not in self.given_matrices:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in spelled_rates(base):

@@ -24,6 +24,7 @@ from lagrangian.check.reading.drawn.named_columns import with_named_columns
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import (
+    entered_in_latex,
     entered_matrices,
     solved_matrices,
     with_determinants,
@@ -265,6 +266,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not LATEX.search(tagless.text):
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
+    else:
+        tagless = entered_in_latex(tagless, len(lines.model.coordinates))
     tagless = with_own_lagrangian(tagless, lines.model, taken, latex=bool(LATEX.search(tagless.text)))
     tagless = with_own_length(tagless, names, taken, latex=bool(LATEX.search(tagless.text)))
     varied = with_variations(_with_own_letters(tagless, lines), taken, None if latex else names.changes)

@@ -1,10 +1,11 @@
-r"""Names with a star, m^*, m^{\ast}, m_r^*, m*: names of the answer's own: m* = M + m. T* is the co-energy."""
+r"""Names with a star, m^*, m^{\ast}, m_r^*, m*: names of the answer's own: m* = M + m. T* is the co-energy; where an
+answer says that T is what is left of it, T = ψ i − T*, T is a name of its own, too."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from itertools import islice
+from itertools import islice, pairwise
 
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
@@ -33,6 +34,14 @@ _SUBTRACTED = re.compile(
     re.MULTILINE,
 )
 """A value from which deviations count: z = s - s*, s = s* + z."""
+_ENERGY_STAR = rf"[ ]?\^?[ ]?(?:\{{[ ]?{_STAR}[ ]?\}}|{_STAR})"
+_ENERGY = re.compile(
+    rf"(?P<sign>[-−–+][ ]?)?(?<![\w\\])T(?P<star>{_ENERGY_STAR})?"
+    r"(?P<index>_[ ]?(?:\{\\(?:text|mathrm)\{\w{1,20}\}\}|\{\w{1,20}\}|\w{1,20}))?"
+    rf"(?P<behind>{_ENERGY_STAR})?(?![\w^*])"
+)
+"""T, T* or one of a part: T^{*}_{\\mathrm{coil}}, T*_coil, T_coil."""
+_GOES_ON = re.compile(r"[ \t]*(?:\\\\)?\n?[ \t]*&?[ \t]*=")
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
 """A star at the end of a heading: factor of s*:"""
 
@@ -44,9 +53,29 @@ def with_starred_names(written: TracedText, known: Callable[[str], bool]) -> Tra
     if not any(c in text for c in ("*", "\\ast", "\\star", "⋆", "★")):
         return written
     latex = "\\" in text or "$" in text
-    written = written.sub(_HEADED, lambda m: m["words"])
+    written = written.sub(_HEADED, lambda m: m["words"]).edited(_energies_beside(text, latex))
     text = written.text
     return written.edited(apart((*_raised(text, latex), *_beside(text, known, latex))))
+
+
+def _energies_beside(text: str, latex: bool) -> Iterator[Edit]:
+    """Names for the energies that are stored where they are no co-energies, T_coil = ψ i − T*_coil, T* = p v − T; in
+    T_coil = ψ i − T*_coil = …, the two values are set equal."""
+    found = [(m, re.sub(r"\W|_|mathrm|text", "", m["index"] or "")) for m in islice(_ENERGY.finditer(text), MOST)]
+    starred = {m.start() for m, _ in found if m["star"] or m["behind"]}
+    stored, ends = set[str](), dict[int, int]()
+    for (a, of), (b, other) in pairwise(found):
+        between = text[a.end() : b.start()]
+        joined = b["sign"] is not None and (of or b["sign"][0] != "+") and between.count("=") == 1
+        if of == other and joined and "\n" not in between and (a.start() in starred) != (b.start() in starred):
+            stored.add(of)
+            if between.strip(" &")[0] == "=" and _GOES_ON.match(text, b.end()) is not None and a.start() not in starred:
+                ends[a.start()] = text.index("=", a.end()) + 1
+    for m, of in found:
+        if of in stored and m.start() not in starred:
+            start = m.start() + len(m["sign"] or "")
+            made = "" if m.start() in ends else _named(f"stored_{of or 'T'}", latex)
+            yield start, ends.get(m.start(), m.end()), made
 
 
 def _raised(text: str, latex: bool) -> Iterator[Edit]:
@@ -56,7 +85,7 @@ def _raised(text: str, latex: bool) -> Iterator[Edit]:
             next((x for x in match.group("low", "word", "short", "index", "one") if x), None),
         )
         if base != "T":
-            yield *match.span(), _named(base if index is None else f"{base}_{index}", latex)
+            yield *match.span(), _named(f"{base if index is None else f'{base}_{index}'}_star", latex)
 
 
 def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
@@ -67,8 +96,8 @@ def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Ed
             continue
         alone = known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None
         found = (m for m in (_BESIDE if alone else _JOINED).finditer(text) if m["name"] == name)
-        yield from ((*m.span(), _named(name, latex)) for m in islice(found, MOST))
+        yield from ((*m.span(), _named(f"{name}_star", latex)) for m in islice(found, MOST))
 
 
 def _named(name: str, latex: bool) -> str:
-    return rf"\mathrm{{{name}_star}}" if latex else f"{name}_star"
+    return rf"\mathrm{{{name}}}" if latex else name

@@ -59,12 +59,20 @@ def _made(block: Sequence[str]) -> str | None:
             return None
         parts.append(f"; {told[0].lstrip(' ,;')}" if told and k and _NAME.match(told[0]) else told[0] if told else "")
         if k < count:
-            rows = [_COLUMNS.split(groups[k]["row"].strip()) for groups in found if groups[k]["row"].strip()]
+            rows = _whole([_COLUMNS.split(groups[k]["row"].strip()) for groups in found if groups[k]["row"].strip()])
             if len({len(row) for row in rows}) != 1:
                 return None
             entries = "; ".join(", ".join(row) for row in rows)
             parts.append(f"[{entries.replace('sym.', SYMMETRIC)}]")
     return " ".join(parts)
+
+
+def _whole(rows: list[list[str]]) -> list[list[str]]:
+    """The rows of a matrix; of a symmetric one all, where those from the diagonal on are drawn, and a mark."""
+    given = [[x for x in row if x != "sym."] for row in rows]
+    if rows == given or any(len(row) != len(rows) - i for i, row in enumerate(given)):
+        return rows
+    return [[*(given[j][i - j] for j in range(i)), *row] for i, row in enumerate(given)]
 
 
 def _between(line: str, groups: Sequence[re.Match[str]], k: int) -> str:

@@ -33,7 +33,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
-from lagrangian.read.letters import key, normal
+from lagrangian.read.letters import normal
 
 _ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 _BEGINS_LISTED = "number fraction letters symbol upright accent decoration function frac sqrt { ( [ abs( begin partial"
@@ -204,10 +204,6 @@ class LatexParser(LatexFractions):
 
     # -- symbols -----------------------------------------------------------------------------------------------------
 
-    def _is_letter(self, base: str) -> bool:
-        """Whether a sign that may be an operator is a name of the system, or one that the answer defines."""
-        return self.known(base) or key(base) in self.names.scope.taken
-
     def _symbol(self) -> Tree:
         """Read a name with its subscript, dots, primes and powers, or a product under dots."""
         start = self.next.start
@@ -217,8 +213,13 @@ class LatexParser(LatexFractions):
         if base == "diag" and self.next.kind == "(" and not self.known("diag"):
             made = inside(self._closed(")"))
             return diagonal(start, matrix_entries(made) or [made])
-        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self._is_letter(base):
-            return wrapped("variation", start, self._symbol_in_brackets())
+        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "("):
+            varied, at = not self._is_letter(base), self.i
+            if varied or self._of_work():
+                of = self._symbol_in_brackets()
+                if varied or self._moves(of):
+                    return wrapped("variation", start, of)
+            self.i = at
         if base == "e" and self.next.kind == "^" and not self._is_letter(base):
             self.take()
             return node("call", start, leaf("NAME", "exp", start), self._argument())
@@ -232,7 +233,7 @@ class LatexParser(LatexFractions):
                 order += sum(_ORDERS[c] for c in primes.text)
             elif self.next.kind == "^" and (more := self._raised_primes()):
                 order += more
-            elif self.next.kind == "^" and base in ("T", "bold T") and self._starred():
+            elif self.next.kind == "^" and (base == "bold T" or base.partition("_")[0] == "T") and self._starred():
                 continue
             elif self.next.kind == "^" and exponent is None and self.ahead().kind != "accent":
                 exponent = (self.take(), self._argument())

@@ -114,7 +114,8 @@ _AT_MARK = re.compile(
 _WORK_BEFORE = re.compile(r"\s*+\\delta\s*+[WA](?![A-Za-z])[^&=]*+=\s*+(?:\{\s?\}\s*+)?&(?!\s*+=)")
 """A row with a minus at the mark behind = in a virtual work above: \\delta W ={}& a\\\\ &- b\\delta x = 0."""
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
-
+_INDENT = re.compile(_SPACE)
+r"""Before a row that only continues a side, c &= a \\\\ &\\quad - b \\\\ &= 0, no gap between two statements."""
 _PROSE = re.compile(r"[^\W_]*+[^\\=_^*/+{}<>|\n]*+")
 _SENTENCE = re.compile(r"\s*+(?P<said>[^\W\d_][^\\=_^*/+{}<>|\n]{4,300}[.!?])\s++(?=[^\n]*=)")
 """Words that end before an equation on the same line: The two steps were T and V. 0 = …"""
@@ -228,6 +229,7 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
             continue
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
             gap = at + start - previous.start - len(previous.text)
+            kept = kept if "=" in kept else _INDENT.sub(lambda m: " " * len(m.group()), kept, count=1)
             at_mark = _AT_MARK.match(kept)
             rows[-1] = AnswerRow(
                 previous.start,
@@ -384,7 +386,7 @@ def _parts(row: AnswerRow) -> list[AnswerRow]:
             depth += 1
         elif mark in ")]}" or mark == "\\end":
             depth -= 1
-        elif depth <= 0:
+        elif depth <= 0 and _STARTS.match(row.text, match.end()) is None:
             cuts.append((match.start(), match.end()))
     cuts.append((len(row.text), len(row.text)))
     pieces = [(a[1], row.text[a[1] : b[0]]) for a, b in pairwise(cuts)]

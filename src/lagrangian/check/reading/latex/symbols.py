@@ -7,9 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from lark import Tree
+
 from lagrangian.check.reading.arguments import written
 from lagrangian.check.reading.latex.tokens import tokenize
 from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.nodes import only_name
 from lagrangian.check.reading.parser import AnswerToken, Parser
 from lagrangian.check.reading.prose.splits import splits
 from lagrangian.model.names import MAX_LENGTH
@@ -55,6 +58,20 @@ class LatexSymbols(Parser):
         if self._digits_belong(token):
             return token.text + self.take().text, 0, token.start
         return token.text, 0, token.start
+
+    def _is_letter(self, base: str) -> bool:
+        """Whether a sign that may be an operator is a name of the system, or one that the answer defines."""
+        return self.known(base) or key(base) in self.names.scope.taken
+
+    def _of_work(self) -> bool:
+        r"""Whether a virtual work is stated: there δ before what moves is no letter, \delta W = \tau\,\delta\delta."""
+        sign, work = self.tokens[0].text, self.tokens[min(1, len(self.tokens) - 1)].text
+        return sign == "delta" and work in ("W", "A") and not self._is_letter(work)
+
+    def _moves(self, of: Tree) -> bool:
+        """Whether a tree is the name of what moves, or of a virtual work."""
+        named = str((only_name(of) or ("",))[0])
+        return self.names.changes(named) or (named[:1] in ("W", "A") and not self._is_letter(named))
 
     def _whole_name(self) -> int:
         """The token behind a name of the system with digits between its letters, x2r; the next one if there is none."""

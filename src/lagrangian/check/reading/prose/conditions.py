@@ -35,6 +35,13 @@ _SIDES = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 """A condition between products or sums of constants and positions: if m1 r = m2 (l - r) there is no pull."""
+_ZERO = r"(?:sin|cos|tan)(?![^\W_])[^=<>\n.;:'’′]{1,40}=[ \t]*0"
+_VANISHES = re.compile(
+    rf"(?<!\w)(?:where(?:ver)?|wo|où)(?:[ \t]+|[ \t]*\n[ \t]*){_ZERO}(?:{_LINK}{_ZERO}){{0,4}}"
+    r"(?=[ \t]*(?:$|[,;)]|\.(?!\d)|[ \t][^\W\d_]{2}))",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""Where a function is zero, by which something was divided: this fails where sin θ = 0 or cos φ = 0."""
 _REFERENCE = re.compile(
     rf"(?<![\w)\]])[(\[](?P<words>[^()\[\]=\n]{{0,60}}?)(?P<name>{_NAME})[ \t]*=[ \t]*[-−]?(?:\d[\d.,/π]{{0,8}}|π|pi)"
     r"(?:[ \t]?/[ \t]?\d)?(?P<more>[^()\[\]=\n+*^]{0,60})[)\]]"
@@ -81,6 +88,7 @@ def without_conditions(text: str, words: Words) -> str:
         and (m["word"].lower() in IF or not (gives_constant(m["said"], words) and _is_given_once(m["said"], text)))
     ]
     found += [m for m in _vanishing(text) if _is_case(m["said"], words)]
+    found += _VANISHES.finditer(text)
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
