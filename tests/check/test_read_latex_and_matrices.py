@@ -7,6 +7,7 @@ import pytest
 
 import lagrangian as lg
 from built_in import derivation
+from small_systems import rod
 
 ONE = r"mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0"
 MATRICES = r"M = \begin{bmatrix} m_1 & 0\\0&m_2\end{bmatrix}, \quad K = \begin{bmatrix} k & -k\\-k&k\end{bmatrix}"
@@ -204,3 +205,32 @@ def test_a_bold_command_without_braces_takes_one_letter() -> None:
     carts = derivation("lecture-3b")
     assert carts.check(f"{said}\n{rows}").right
     assert not carts.check(f"{said}\n{rows.replace('0&k', '0&-k')}").right
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "\\[\n(J + m r^2)\\ddot\\varphi\n\\]\n\\[\n{}+ 2 m r\\dot r\\dot\\varphi = M\n\\]",
+        r"$$(J + m r^2)\ddot\varphi$$ $$+ 2 m r\dot r\dot\varphi = M$$",
+        "\\[(J + m r^2)\\ddot\\varphi +\\]\n\\[2 m r\\dot r\\dot\\varphi = M\\]",
+        "\\[(J + m r^2)\\ddot\\varphi\\]\n\n\\[\\qquad + 2 m r\\dot r\\dot\\varphi\\]\n\\[= M\\]",
+        "\\begin{equation}\n(J + m r^2)\\ddot\\varphi\n\\end{equation}\n\\begin{equation}\n{}+ 2 m r\\dot r\\dot\\varphi = M"
+        "\n\\end{equation}",
+        "$(J + m r^2)\\ddot\\varphi$\n$+ 2 m r\\dot r\\dot\\varphi = M$",
+        "\\[(J + m r^2)\\ddot\\varphi = M\\]\n\\[{} - 2 m r\\dot r\\dot\\varphi\\]",
+    ],
+)
+def test_an_equation_over_several_displays(written: str) -> None:
+    puck = r"\[m\ddot r - m r\dot\varphi^2 + k(r - a) = 0\]" + "\n\n"
+    assert rod().check(puck + written).right
+    assert not rod().check(puck + written.replace("2 m r", "3 m r")).right
+
+
+def test_displays_that_each_state_something_stay_apart() -> None:
+    puck = r"\[- k(r - a) = m\ddot r - m r\dot\varphi^2\]"
+    assert (
+        rod()
+        .check(r"\[\tfrac12 m\dot r^2\]" + puck + r"\[(J + m r^2)\ddot\varphi + 2 m r\dot r\dot\varphi = M\]")
+        .right
+    )
+    assert rod().check(r"\[(J + m r^2)\ddot\varphi + 2 m r\dot r\dot\varphi = M\]" + puck).right

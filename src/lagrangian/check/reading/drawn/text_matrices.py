@@ -213,9 +213,12 @@ def _names_last(text: str, rows: Sequence[_Row]) -> bool:
 
 
 def _row_ends(text: str) -> Iterator[Edit]:
-    """Semicolons for the ends of lines inside square brackets; blanks behind a semicolon and inside an entry."""
+    """Semicolons for the ends of lines inside square brackets; blanks behind a semicolon and inside an entry. The
+    marks of a display in LaTeX are no brackets."""
     depth, opened, ends = 0, 0, list[int]()
     for at, c in enumerate(text):
+        if c in "[]" and text[at - 1 : at] == "\\":
+            continue
         if c == "[":
             depth += 1
             opened = opened if depth > 1 else at
