@@ -253,3 +253,12 @@ def test_a_name_that_words_say_to_be_short_for_a_formula(said: str, name: str) -
     assert is_right(answer, pendulum())
     for slip in ("2 m", "m² "):
         assert not is_right(answer.replace("m l²", f"{slip} l²").replace("l² m", f"l² {slip}"), pendulum())
+
+
+@pytest.mark.parametrize("said", ["φ = π also.", "φ = pi is unstable.", "Rest at φ = 0; φ = π as well.", "also φ = π."])
+def test_pi_is_no_momentum(said: str) -> None:
+    """Not that of φ, whose name ends with i; p_φ is one."""
+    assert is_right(f"m l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert is_right(f"p_φ = m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert not is_right(f"p_φ = 2 m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert not is_right(f"m l² φ'' + b φ' - m g l sin φ = M\n\n{said}", pendulum())

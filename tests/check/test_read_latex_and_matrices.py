@@ -4,10 +4,10 @@ Oracle: the equations of the built-in examples, written by hand.
 """
 
 import pytest
+from small_systems import rod
 
 import lagrangian as lg
 from built_in import derivation
-from small_systems import rod
 
 ONE = r"mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0"
 MATRICES = r"M = \begin{bmatrix} m_1 & 0\\0&m_2\end{bmatrix}, \quad K = \begin{bmatrix} k & -k\\-k&k\end{bmatrix}"
@@ -214,8 +214,7 @@ def test_a_bold_command_without_braces_takes_one_letter() -> None:
         r"$$(J + m r^2)\ddot\varphi$$ $$+ 2 m r\dot r\dot\varphi = M$$",
         "\\[(J + m r^2)\\ddot\\varphi +\\]\n\\[2 m r\\dot r\\dot\\varphi = M\\]",
         "\\[(J + m r^2)\\ddot\\varphi\\]\n\n\\[\\qquad + 2 m r\\dot r\\dot\\varphi\\]\n\\[= M\\]",
-        "\\begin{equation}\n(J + m r^2)\\ddot\\varphi\n\\end{equation}\n\\begin{equation}\n{}+ 2 m r\\dot r\\dot\\varphi = M"
-        "\n\\end{equation}",
+        "\\begin{align}\n(J + m r^2)\\ddot\\varphi\\end{align}\n\\begin{align}{}+ 2 m r\\dot r\\dot\\varphi = M\\end{align}",
         "$(J + m r^2)\\ddot\\varphi$\n$+ 2 m r\\dot r\\dot\\varphi = M$",
         "\\[(J + m r^2)\\ddot\\varphi = M\\]\n\\[{} - 2 m r\\dot r\\dot\\varphi\\]",
     ],

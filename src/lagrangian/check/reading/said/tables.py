@@ -209,7 +209,7 @@ def _is_value(written: str, known: Callable[[str], bool]) -> bool:
     return bool(names) and not stray and re.search(r"[=,:;]", written) is None
 
 
-_COMMANDS = frozenset("sin cos tan sqrt frac dfrac tfrac dot ddot cdot left right mathrm t".split())
+_COMMANDS = frozenset(["frac", "dfrac", "tfrac", "sqrt", "dot", "ddot", "cdot", "left", "right", "mathrm", "t"])
 """What is no name of a quantity in a formula."""
 
 
