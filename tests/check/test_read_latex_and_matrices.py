@@ -4,7 +4,7 @@ Oracle: the equations of the built-in examples, written by hand.
 """
 
 import pytest
-from small_systems import rod
+from small_systems import pendulum, rod
 
 import lagrangian as lg
 from built_in import derivation
@@ -214,7 +214,7 @@ def test_a_bold_command_without_braces_takes_one_letter() -> None:
         r"$$(J + m r^2)\ddot\varphi$$ $$+ 2 m r\dot r\dot\varphi = M$$",
         "\\[(J + m r^2)\\ddot\\varphi +\\]\n\\[2 m r\\dot r\\dot\\varphi = M\\]",
         "\\[(J + m r^2)\\ddot\\varphi\\]\n\n\\[\\qquad + 2 m r\\dot r\\dot\\varphi\\]\n\\[= M\\]",
-        "\\begin{align}\n(J + m r^2)\\ddot\\varphi\\end{align}\n\\begin{align}{}+ 2 m r\\dot r\\dot\\varphi = M\\end{align}",
+        "\\begin{align}\n(J+mr^2)\\ddot\\varphi\\end{align}\\begin{align}+ 2 m r\\dot r\\dot\\varphi = M\\end{align}",
         "$(J + m r^2)\\ddot\\varphi$\n$+ 2 m r\\dot r\\dot\\varphi = M$",
         "\\[(J + m r^2)\\ddot\\varphi = M\\]\n\\[{} - 2 m r\\dot r\\dot\\varphi\\]",
     ],
@@ -233,3 +233,26 @@ def test_displays_that_each_state_something_stay_apart() -> None:
         .right
     )
     assert rod().check(r"\[(J + m r^2)\ddot\varphi + 2 m r\dot r\dot\varphi = M\]" + puck).right
+
+
+IN_WORDS = "m l^2 \\ddot φ + b \\dot φ + m g l sinφ = M      (*)\n\n"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "For |φ| << 1, (*) becomes the oscillator m l^2 \\ddot φ + b \\dot φ + m g l φ = M.",
+        "Linearised, (*) gives m l^2 \\ddot φ + b \\dot φ + m g l φ = M.",
+        "For small φ the equation becomes\nm l^2 \\ddot φ + b \\dot φ + m g l φ = M",
+        "The weight acts like a spring in (*), and the support force does not appear.",
+    ],
+)
+def test_dots_of_latex_among_words(said: str) -> None:
+    """Words and dots alone make no document of LaTeX; (*) is the number of an equation."""
+    for number in ("(*)", "(**)", "(1)", "[*]"):
+        written = (IN_WORDS + said).replace("(*)", number)
+        assert pendulum().check(written).right, written
+    assert pendulum().check((IN_WORDS + said).replace("φ", r"\varphi ").replace(r"|\varphi |", "|φ|")).right
+    assert pendulum().check("(*) " + (IN_WORDS + said).replace("      (*)", "", 1)).right
+    assert not pendulum().check(IN_WORDS.replace("+ b", "- b") + said).right
+    assert not pendulum().check(IN_WORDS.replace("sinφ", "cosφ") + said).right
