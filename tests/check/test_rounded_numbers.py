@@ -193,6 +193,6 @@ def test_numbers_are_rounded_beside_a_root_in_another_form(length: str) -> None:
     gate = loads(GATE).derive()
     assert gate.check(f"{length}\n{OPENS}").right
     assert gate.check(f"{OPENS}\nwith {length}").right
-    for slip in (("4.7266", "4.7276"), ("1.1/l", "1.2/l"), ("123.75", "-123.75"), ("4.7266", "-4.7266")):
+    for slip in (("4.7266", "4.7276"), ("1.1/l", "1.2/l"), ("123.75 (1", "123.75 (2"), ("+ 4.7266", "- 4.7266")):
         assert not gate.check(f"{length}\n{OPENS.replace(*slip)}").right
     assert not gate.check(f"{length.replace('-', '+')}\n{OPENS}").right
