@@ -141,3 +141,39 @@ def test_degrees_in_words_are_added_to_an_angle() -> None:
     assert rod().check(said.format("cos")).right
     assert not rod().check(said.format("sin")).right
     assert not rod().check(said.format("cos").replace("90", "180")).right
+
+
+@cache
+def hoist() -> lg.Derivation:
+    """A drum with a motor that holds a load on an elastic rope, at any height."""
+    s = lg.System("hoist")
+    phi, x = s.coordinates("phi x")
+    J, R, m, k, n, g = s.parameters("J R m k n g")
+    s.kinetic(J * phi.diff() ** 2 / 2, name="drum")
+    s.particle(m, at=s.point("A", (0, x)), name="load")
+    s.spring(k, deflection=R * phi - x, name="rope")
+    s.gravity((0, -1), g)
+    s.torque(s.input("tau"), on=n * phi, name="motor")
+    return s.derive()
+
+
+HELD = "\n\nJ φ'' + k R (R φ - x) = n u\n\nm x'' + k (x - R φ) = 0"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I measure both coordinates from the position at rest, in which the motor holds with τ0 = m g R/n, and write "
+        "u = τ − τ0 for the change of the torque.",
+        "All coordinates are measured from the equilibrium.\nτ0 = m g R/n\nu = τ − τ0",
+        "x and φ count from the position at rest, where τ = τ0 = m g R/n, and u = τ − τ0.",
+    ],
+)
+def test_a_system_that_an_input_holds_anywhere_counts_from_rest(said: str) -> None:
+    """At rest k (R φ − x) = m g, for every φ, and n τ0 = m g R."""
+    assert hoist().check(said + HELD).right
+    assert hoist().check(said + HELD.replace("n u", "n τ - m g R")).right
+    assert not hoist().check(said.replace("m g R", "2 m g R") + HELD).right
+    assert not hoist().check(said + HELD.replace("n u", "n τ")).right
+    assert not hoist().check(said + HELD.replace("k R (R φ - x)", "k R (R φ + x)")).right
+    assert not hoist().check("With u = τ − m g R/n:" + HELD, hint=0).right

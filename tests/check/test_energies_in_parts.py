@@ -5,6 +5,7 @@ from typing import Literal
 
 import pytest
 import sympy as sp
+from small_systems import wheels
 
 import lagrangian as lg
 from built_in import derivation
@@ -178,3 +179,37 @@ def test_a_name_with_a_number_is_not_the_first_entry_of_a_column(right: str, ope
     lines = lines_of(parse_answer("v_1 = 2 x'\nv = 3 x'\nT = M v_1^2 + M v^2", truth.model))
     proved = AnsweredLine("V", truth.V, 4, names=frozenset([right]))
     assert {part.line.name for part in BodiesSaid(truth, lines, [proved]).parts} == open_ones
+
+
+DRIVEN = "(A + B R^2/r^2) φ'' + c R^2/r^2 φ' + k φ = M R/r\n"
+OF_ROLLER = [
+    "The roller turns with R φ'/r, so it has T = ½ B R² φ'²/r².",
+    "Reason for B R²/r²: no slip at the rim, hence T = ½ B (R/r)² φ'².",
+    "Begründung: die Rolle gleitet nicht, also T = ½ B R²/r² φ'².",
+    "Note on the roller: T = ½ B R² φ'²/r².",
+]
+
+
+@pytest.mark.parametrize("said", OF_ROLLER)
+@pytest.mark.parametrize("above", [True, False])
+def test_a_sentence_beside_right_equations_may_say_the_energy_of_one_element(said: str, above: bool) -> None:
+    """It is told as that of the roller; without right equations, or when it is none of one element, it stays wrong."""
+    answer = f"{said}\n{DRIVEN}" if above else f"{DRIVEN}\n{said}"
+    verdict = wheels().check(answer)
+    assert verdict.right and "as the energy of 'roller' alone" in verdict.to_text()
+    assert not wheels().check(answer.replace("½ B", "B")).right
+    assert not wheels().check(answer.replace("+ k φ", "- k φ")).right
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "T = ½ B R² φ'²/r²",
+        "Kinetic energy: T = ½ B R² φ'²/r²",
+        "The kinetic energy of the system is T = ½ B R² φ'²/r².",
+        "Altogether the roller and the drum have T = ½ B R² φ'²/r².",
+        "First we write down T = ½ B R² φ'²/r².",
+    ],
+)
+def test_an_energy_of_the_answer_that_lacks_a_body_stays_wrong(said: str) -> None:
+    assert not wheels().check(f"{said}\n{DRIVEN}", hint=0).right

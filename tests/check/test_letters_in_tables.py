@@ -108,3 +108,24 @@ def test_letters_of_the_sheet_in_brackets_in_a_list() -> None:
     said = "- u, w: the two carts (sheet: x, y)\n- D: spring (sheet: k)\n- d: damper (sheet: c)\n\n"
     assert right(carts(), said + CARTS)
     assert not right(carts(), said + CARTS.replace("= 0", "= F"))
+
+
+VALUES = [
+    "| my letter | meaning |\n|---|---|\n| `e` | `x - y`, stretch of the spring |\n| `w` | x' - y', its rate |",
+    "| letter | what |\n|---|---|\n| e | stretch of the spring: x - y |\n| w | its rate (x' - y') |\n| F | pulls |",
+    "| symbol | value | what it is |\n|:--|:-:|---|\n| e | x - y | stretch |\n| w | x' - y' | rate of the stretch |",
+    "| Zeichen | Bedeutung |\n|---|---|\n| **e** | Dehnung, x - y |\n| w | x' - y' |",
+]
+
+
+@pytest.mark.parametrize("table", VALUES)
+def test_a_table_of_own_letters_with_values_and_words(table: str) -> None:
+    equations = "\n\nm1 x'' + k e + c w = F\n\nm2 y'' - k e - c w = 0"
+    assert right(carts(), table + equations)
+    assert not right(carts(), table.replace("x - y", "x + y") + equations)
+    assert not right(carts(), table.replace("x' - y'", "y' - x'") + equations)
+
+
+def test_units_in_a_table_are_no_values() -> None:
+    table = "| symbol | unit | meaning |\n|---|---|---|\n| e | m | stretch of the spring |\n\n"
+    assert not right(carts(), table + "m1 x'' + k e + c (x' - y') = F\n\nm2 y'' - k e - c (x' - y') = 0")

@@ -230,3 +230,35 @@ def test_a_word_of_the_description_in_brackets_is_no_product() -> None:
     product = "J alpha'' + c n^2 alpha' = Q - F\nF = alpha (k r^2)"
     assert crank.check(product).right
     assert not crank.check(product.replace("k r^2", "k r")).right
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "where NAME is short for m l².",
+        "NAME is an abbreviation for m l²",
+        "where NAME is the product m l²",
+        "Here NAME is shorthand for l² m.",
+        "(NAME is m l²)",
+        "(where NAME stands for m l²)",
+        "NAME ist kurz für m l².",
+        "I write the equation shortly: NAME is used for m l².",
+        "NAME denotes m l²; it is the moment of inertia.",
+    ],
+)
+@pytest.mark.parametrize("name", ["S", "J*"])
+def test_a_name_that_words_say_to_be_short_for_a_formula(said: str, name: str) -> None:
+    """With a star the name stays one: J* φ'' is no product of J."""
+    answer = f"{name} φ'' + b φ' + m g l sin φ = M\n\n{said.replace('NAME', name)}".replace("S φ", "S*φ")
+    assert is_right(answer, pendulum())
+    for slip in ("2 m", "m² "):
+        assert not is_right(answer.replace("m l²", f"{slip} l²").replace("l² m", f"l² {slip}"), pendulum())
+
+
+@pytest.mark.parametrize("said", ["φ = π also.", "φ = pi is unstable.", "Rest at φ = 0; φ = π as well.", "also φ = π."])
+def test_pi_is_no_momentum(said: str) -> None:
+    """Not that of φ, whose name ends with i; p_φ is one."""
+    assert is_right(f"m l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert is_right(f"p_φ = m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert not is_right(f"p_φ = 2 m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
+    assert not is_right(f"m l² φ'' + b φ' - m g l sin φ = M\n\n{said}", pendulum())

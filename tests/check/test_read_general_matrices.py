@@ -158,3 +158,53 @@ def test_hostile_texts_stay_about_as_long_as_they_are(latex: bool) -> None:
     for text in HOSTILE:
         found = with_general_form(TracedText(text), ["x", "y"], lambda _: False, {}, latex=latex)
         assert len(found.text) <= len(text) + 1_000
+
+
+LONGER = {
+    "a column": "Mass matrix form:  Mq * [x''; phi''] + h = f\n",
+    "transposed": "Mq [x'' phi'']^T + h = f\n",
+    "a tuple": "Mq * (x'', phi'')^T + h = f\n",
+    "with arguments": "Mq(q) * [x''; phi''] + h(q, q') = f(q)\n",
+    "on the right": "Mq [x''; phi''] = f - h\n",
+    "a letter": "Mq q'' + h = f\n",
+}
+
+
+@pytest.mark.parametrize("name", ["Mq", "M_q", "Mm", "A"])
+@pytest.mark.parametrize("form", LONGER)
+def test_the_matrix_of_entries_may_have_a_longer_name(form: str, name: str) -> None:
+    answer = (LONGER[form].replace("Mq", name) + SQUARE.replace("M1", f"{name}1").replace("M2", f"{name}2")) + "\n"
+    answer += COLUMN + "f1 = F\nf2 = h tau"
+    assert accepted(answer)
+    assert not accepted(answer.replace("= m l cos phi", "= -m l cos phi"))
+    assert not accepted(answer.replace("[x''", "[phi''").replace("; phi''", "; x''").replace("h2 = ", "h2 = -"))
+
+
+DRAWN = """M_ q'' + B q' + K q + n = f  with q = [x; phi]
+
+       [ M + m        m l cos phi ]
+M_  =  [ m l cos phi  m l^2       ]
+
+       [ c   0 ]
+B   =  [ 0   0 ]
+
+K   =  [ k   0 ]
+       [ 0   0 ]
+n   =  [ -m l phi'^2 sin phi ; m g l sin phi ]
+f   =  [ F ; h tau ]
+"""
+
+
+def test_a_drawn_matrix_may_have_its_name_beside_any_row() -> None:
+    assert accepted(DRAWN)
+    assert accepted(DRAWN.replace("M_", "A "))
+    assert not accepted(DRAWN.replace("[ c   0 ]", "[ -c   0 ]"))
+    assert not accepted(DRAWN.replace("K   =  [ k   0 ]\n       [ 0   0 ]", "       [ 0   0 ]\nK   =  [ 0   k ]"))
+
+
+def accepted(answer: str) -> bool:
+    """Whether an answer is read and right."""
+    try:
+        return driven().check(answer, hint=0).right
+    except ParseError:
+        return False

@@ -4,6 +4,7 @@ Oracle: the equations of the built-in examples, written by hand.
 """
 
 import pytest
+from small_systems import pendulum, rod
 
 import lagrangian as lg
 from built_in import derivation
@@ -228,3 +229,54 @@ ONE_ROW = r"""\[ \mathbf M \ddot{\mathbf q} + \mathbf G = \mathbf A^T \boldsymbo
 def test_a_row_times_a_column_beside_a_matrix_of_one_entry(old: str, new: str) -> None:
     verdict = derivation("rod-pendulum").check(ONE_ROW.replace(old, new))
     assert verdict.right is (not old), verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "\\[\n(J + m r^2)\\ddot\\varphi\n\\]\n\\[\n{}+ 2 m r\\dot r\\dot\\varphi = M\n\\]",
+        r"$$(J + m r^2)\ddot\varphi$$ $$+ 2 m r\dot r\dot\varphi = M$$",
+        "\\[(J + m r^2)\\ddot\\varphi +\\]\n\\[2 m r\\dot r\\dot\\varphi = M\\]",
+        "\\[(J + m r^2)\\ddot\\varphi\\]\n\n\\[\\qquad + 2 m r\\dot r\\dot\\varphi\\]\n\\[= M\\]",
+        "\\begin{align}\n(J+mr^2)\\ddot\\varphi\\end{align}\\begin{align}+ 2 m r\\dot r\\dot\\varphi = M\\end{align}",
+        "$(J + m r^2)\\ddot\\varphi$\n$+ 2 m r\\dot r\\dot\\varphi = M$",
+        "\\[(J + m r^2)\\ddot\\varphi = M\\]\n\\[{} - 2 m r\\dot r\\dot\\varphi\\]",
+    ],
+)
+def test_an_equation_over_several_displays(written: str) -> None:
+    puck = r"\[m\ddot r - m r\dot\varphi^2 + k(r - a) = 0\]" + "\n\n"
+    assert rod().check(puck + written).right
+    assert not rod().check(puck + written.replace("2 m r", "3 m r")).right
+
+
+def test_displays_that_each_state_something_stay_apart() -> None:
+    puck = r"\[- k(r - a) = m\ddot r - m r\dot\varphi^2\]"
+    assert (
+        rod()
+        .check(r"\[\tfrac12 m\dot r^2\]" + puck + r"\[(J + m r^2)\ddot\varphi + 2 m r\dot r\dot\varphi = M\]")
+        .right
+    )
+    assert rod().check(r"\[(J + m r^2)\ddot\varphi + 2 m r\dot r\dot\varphi = M\]" + puck).right
+
+
+IN_WORDS = "m l^2 \\ddot φ + b \\dot φ + m g l sinφ = M      (*)\n\n"
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "For |φ| << 1, (*) becomes the oscillator m l^2 \\ddot φ + b \\dot φ + m g l φ = M.",
+        "Linearised, (*) gives m l^2 \\ddot φ + b \\dot φ + m g l φ = M.",
+        "For small φ the equation becomes\nm l^2 \\ddot φ + b \\dot φ + m g l φ = M",
+        "The weight acts like a spring in (*), and the support force does not appear.",
+    ],
+)
+def test_dots_of_latex_among_words(said: str) -> None:
+    """Words and dots alone make no document of LaTeX; (*) is the number of an equation."""
+    for number in ("(*)", "(**)", "(1)", "[*]"):
+        written = (IN_WORDS + said).replace("(*)", number)
+        assert pendulum().check(written).right, written
+    assert pendulum().check((IN_WORDS + said).replace("φ", r"\varphi ").replace(r"|\varphi |", "|φ|")).right
+    assert pendulum().check("(*) " + (IN_WORDS + said).replace("      (*)", "", 1)).right
+    assert not pendulum().check(IN_WORDS.replace("+ b", "- b") + said).right
+    assert not pendulum().check(IN_WORDS.replace("sinφ", "cosφ") + said).right

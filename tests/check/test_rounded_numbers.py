@@ -150,3 +150,49 @@ def test_a_calculation_with_numbers_is_no_equation_of_motion() -> None:
     assert derivation.check(rows).right
     assert derivation.check(said.format("141.3333") + rows).right
     assert not derivation.check(said.format("151.3333") + rows).right
+
+
+GATE = """
+name = "gate with a strut"
+[coordinates]
+theta = "opening angle, from hanging down"
+[parameters]
+J = "5.2 kg*m^2"
+a = "0.25 m"
+b = "0.55 m"
+L0 = "1.1 m"
+k = "900 N/m"
+c = "250 N*s/m"
+[inputs]
+M = "N*m"
+[points]
+A = ["a*sin(theta)", "-a*cos(theta)"]
+B = ["0", "-b"]
+[[kinetic]]
+value = "J*theta'^2/2"
+[[spring]]
+k = "k"
+between = ["A", "B"]
+rest = "L0"
+[[damper]]
+b = "c"
+between = ["A", "B"]
+[[torque]]
+value = "M"
+on = "theta"
+"""
+OPENS = "5.2 theta'' + 123.75 (1 - 1.1/l) sin(theta) + 4.7266 sin(theta)^2/l^2 theta' = M"
+
+
+@pytest.mark.parametrize(
+    "length",
+    ["l^2 = 0.365 - 0.275 cos(theta)", "l = sqrt(0.365 - 0.275 cos(theta))", "l² = a² + b² - 2 a b cos(theta)"],
+)
+def test_numbers_are_rounded_beside_a_root_in_another_form(length: str) -> None:
+    """The system has √((a sin θ)² + (b − a cos θ)²), and c (a b)² = 4.7265625."""
+    gate = loads(GATE).derive()
+    assert gate.check(f"{length}\n{OPENS}").right
+    assert gate.check(f"{OPENS}\nwith {length}").right
+    for slip in (("4.7266", "4.7276"), ("1.1/l", "1.2/l"), ("123.75 (1", "123.75 (2"), ("+ 4.7266", "- 4.7266")):
+        assert not gate.check(f"{length}\n{OPENS.replace(*slip)}").right
+    assert not gate.check(f"{length.replace('-', '+')}\n{OPENS}").right

@@ -13,6 +13,7 @@ from functools import lru_cache, partial
 from itertools import combinations
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -22,6 +23,7 @@ from lagrangian.check.decimals import digits, places
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
@@ -40,6 +42,9 @@ MAX_COEFFICIENTS = 30
 
 LONGEST_NUMBER = 20
 """The most operations of a number, made of sines and cosines of angles, of which ratios are formed."""
+
+FAR = 1e-8
+"""How far, in parts of their size, numbers may be off that are found at states."""
 
 MAX_SOLVED, MAX_ELIMINATED = 4, 3
 """The most coordinates of a system whose equations are solved for the accelerations, or freed from some."""
@@ -149,7 +154,32 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...])
             found, sizes = within_rounding(whole, typed, _right_lines(truth)) or (found, sizes)
         if sizes:
             return sp.Add(*(k * x for k, x in (found | forces).items())), frozenset(sizes)
-    return expr, frozenset()
+    return _right_row_at_states(truth, expr) or (expr, frozenset())
+
+
+def _right_row_at_states(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, frozenset[float]] | None:
+    """The right equation that a line is whose roots or divisors are written otherwise, √(0.365 − 0.275 cos θ) for a
+    distance, if there is only one number for each of its terms with which it is this equation at all states, and those
+    of the line are these, exact or rounded; None for another line."""
+    own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
+    divided = any(p.is_Pow and p.args[0].is_Add and not p.args[1].is_Integer for k in own for p in bounded.each(k))
+    if not divided or not 1 < len(own) <= truth.states.size - 2 or not all(x.is_Rational for x in own.values()):
+        return None
+    values = CompiledExpressions(list(own)).at(truth.states).T
+    sizes = np.abs(values).max(axis=0)
+    if not np.isfinite(values).all() or not np.isfinite(truth.W).all() or not sizes.all():
+        return None
+    for row, right in zip(truth.W, truth.rows, strict=True):
+        numbers, _, rank, _ = np.linalg.lstsq(values / sizes, row, rcond=None)
+        left = np.abs(values / sizes @ numbers - row).max()
+        if rank < len(own) or left > FAR * np.abs(row).max():
+            continue
+        for sign in (1, -1):
+            pairs = [(x, sign * float(c)) for x, c in zip(own.values(), numbers / sizes, strict=True)]
+            off = [(x, c) for x, c in pairs if abs(_size(x) - c) > FAR * abs(c)]
+            if off and all(_is_rounded_from(x, sp.Float(c)) for x, c in off):
+                return sign * right, frozenset(abs(_size(x)) for x, _ in off)
+    return None
 
 
 def _own_forms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[sp.Expr, bool]]:

@@ -24,6 +24,18 @@ from lagrangian.page.formula import Name, Text, text
 
 MOST_PARTS, MOST_ADDED = 8, 3
 """The most definitions that are tried, and the most that are added up."""
+FEWEST_WORDS = 2
+"""The words that make a sentence."""
+_WORD = re.compile(r"[^\W\d_]{2,}")
+_ENERGY = re.compile(r".*energ|lagrang|.*potential")
+_REASON = re.compile(
+    r"reasons?|because|since|why|note|remark|explanation|begründung|weil|denn|warum|anmerkung|bemerkung|erklärung"
+    r"|parce|raison|remarque"
+)
+_WHOLE = re.compile(
+    r"systems?|total|whole|sum|all|everything|entire|overall|altogether|together|gesamt\w*|ganze[nrs]?|insgesamt|summe"
+    r"|zusammen|alle[srnm]?|tout|totale?|système|ensemble"
+)
 MOST_PERMUTED = 4
 """The largest number of coordinates for which all orders of equations are tried."""
 
@@ -79,7 +91,40 @@ def without_first_parts(
         if after and not is_right(line):
             whole[id(line)] = after[-1]
     notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
-    return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))
+    of_one = _of_one_element(truth, lines)
+    notes += (f"'{x.text}' was read as the energy of '{name}' alone." for x in lines if (name := of_one.get(id(x))))
+    return tuple(x for x in lines if id(x) not in {*whole, *of_one}), tuple(map(text, dict.fromkeys(notes)))
+
+
+def _of_one_element(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[int, str]:
+    """The names of the elements whose energies are what lines call T or V in sentences of words that speak of these, or
+    that give a reason, beside right equations: the wheels roll, so T = ½ (I/r²) ẋ²."""
+    said = [x for x in lines if x.kind in ("T", "V") and len(_WORD.findall(x.words)) >= FEWEST_WORDS]
+    if not said or truth.derivation.multipliers:
+        return {}
+    moving = [c.acceleration for c in truth.model.coordinates]
+    rows = [x.expr for x in lines if x.kind == "equation" and x.expr.has(*moving)]
+
+    def is_row(expr: sp.Expr, row: sp.Expr) -> bool:
+        return any(zero_everywhere(truth, truth.expand(expr) - sign * row) for sign in (1, -1))
+
+    right = [[is_row(x, row) for row in truth.rows] for x in rows]
+    if not all(map(any, right)) or not all(map(any, zip(*right, strict=True))) or not rows:
+        return {}
+    found: dict[int, str] = {}
+    for line in said:
+        words = {x.lower() for x in _WORD.findall(line.words)}
+        for e in truth.model.elements:
+            own = truth.expand(e.kinetic(truth.model) if line.kind == "T" else e.potential(truth.model))
+            named = bool(words & {x.lower() for x in _WORD.findall(e.name)})
+            sure = named or (any(map(_REASON.fullmatch, words)) and not any(map(_ENERGY.match, words)))
+            if own == 0 or not sure or any(map(_WHOLE.fullmatch, words)):
+                continue
+            if zero_everywhere(truth, own - (truth.T if line.kind == "T" else truth.V)):
+                continue  # the only one
+            if zero_everywhere(truth, truth.expand(line.expr) - own):
+                found[id(line)] = e.name
+    return {k: name for k, name in found.items() if name}
 
 
 def _names_itself(line: AnsweredLine) -> bool:

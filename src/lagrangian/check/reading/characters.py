@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from lagrangian.read.letters import SPELLED
+
 _SAME = {
     **dict.fromkeys("ʹ´ʼ‘ˈ＇", "'"),
     **dict.fromkeys("“”＂", '"'),
@@ -56,6 +58,35 @@ _STYLED = re.compile(
 )
 
 
+_COMMAND = re.compile(r"\\([A-Za-z]+|[^A-Za-z])")
+_DOTTED = re.compile(
+    r"\\(?P<twice>d)?dot(?:[ ]?\{[ ]?(?P<held>\\?[^\W\d_][^\W_]{0,15}(?:_\w{1,12})?)[ ]?\}"
+    r"|[ ]?(?P<bare>[^\W\d_](?![^\W\d_])|\\[A-Za-z]{2,10}))(?P<index>_\w{1,12})?"
+)
+_TYPED = {"cdot": "*", "times": "*"}
+_LETTERS = frozenset(f"{var}{word}" for word in SPELLED.values() for var in ("", "var"))
+_SPOKEN = re.compile(r"(?<![\w\\{])[^\W\d_]{4,24}(?![\w(^_}'’′])")
+FEWEST_WORDS = 2
+"""The words that make an answer one in words."""
+
+
+def _with_typed_dots(text: str) -> str:
+    r"""A text in words whose only commands of LaTeX are dots, letters and signs of products, without marks around
+    its mathematics, with primes and letters for them: (1) becomes J \ddot θ = M."""
+    commands = set(_COMMAND.findall(text))
+    spoken = [x for x in _SPOKEN.findall(text) if x.lower() not in _LETTERS]
+    if not commands & {"dot", "ddot"} or "$" in text or len(spoken) < FEWEST_WORDS:
+        return text
+    if not all(x in _TYPED or x in ("dot", "ddot") or x in _LETTERS for x in commands):
+        return text
+    made = _DOTTED.sub(
+        lambda m: f"{m['held'] or m['bare']}{m['index'] or ''}{chr(39) * (2 if m['twice'] else 1)}", text
+    )
+    if "\\dot" in made or "\\ddot" in made or re.search(r"[{}]", made):
+        return text
+    return _COMMAND.sub(lambda m: _TYPED.get(m[1]) or f" {m[1].removeprefix('var')}", made)
+
+
 def plainer(text: str) -> str:
     """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
     characters without width left out."""
@@ -63,7 +94,7 @@ def plainer(text: str) -> str:
     text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n")))
     text = _BAR.sub(lambda m: "─" * len(m.group()), text).translate(_TABLE)
     text = _FREEDOMS.sub(lambda m: " " * len(m.group()), _TRANSPOSED.sub("^T", text))
-    return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))
+    return _with_typed_dots(_ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text)))
 
 
 def _fraction(match: re.Match[str]) -> str:

@@ -1,6 +1,6 @@
 """Matrices that an answer gives entry by entry, or moves to the other side: what programs and robotics write.
 
-M11 = a, M12 = M21 = b, M22 = c, and M*q'' + h = f          M = [M11, M12; M21, M22] is added
+M11 = a, M12 = M21 = b, M22 = c, and M*q'' + h = f          M = [M11, M12; M21, M22] is added, so is Mq of Mq11
 q'' = M \\ f,  q'' = inv(M)*f,  q'' = M^-1 f                 M*(q'') = f
 [a, b; *, c],  [a, b; sym., c]                              [a, b; b, c]
 det M = a c - b^2                                           |M| = a c - b^2
@@ -15,7 +15,7 @@ from itertools import islice, pairwise
 from lagrangian.check.reading.name_patterns import LOWERED
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
-_ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
+_ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z](?:_?[a-z]{1,2})?)_?\{?(?P<place>[1-6₁-₆]{1,2})\}?(?=\s*=(?!=))")
 _BOLD_ENTRY = re.compile(
     r"\\(?:mathbf|boldsymbol|bm)[ ]?\{?[ ]?(?P<name>[A-Za-z])[ ]?\}?[ ]?_\{?(?P<place>[1-6]{2})\}?(?=\s*&?\s*=(?!=))"
 )
@@ -38,7 +38,7 @@ _ACCELERATIONS = re.compile(r"q?acc(?:el(?:erations?)?)?|a|sol|ans")
 _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
 
 
-_COLUMN = r"(?:\*\*)?[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
+_COLUMN = r"(?:\*\*)?(?:\([ ]?[qxzξ][ ]?\))?[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
 """What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
 
 _SIDE = (

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import islice
 
 from lagrangian.check.reading.name_patterns import LOWERED
@@ -55,15 +56,18 @@ class _Notation:
     opened: str
     matrix: tuple[str, str, str, str]
     derived: str
+    longer: str = ""
+    """Names of several letters, each with a bar behind it, of which an answer gives entries: Mq."""
 
     @property
     def term(self) -> str:
         """A column: its name, with what it depends on, or a matrix times the coordinates, or what is written out."""
-        return rf"(?:{self.written_out}|{self.name.replace('NAME', '[A-Za-z]')}{self.of}(?:{self.rates})?)"
+        name = self.name.replace("NAME", f"(?:{self.longer}[A-Za-z])")
+        return rf"(?:{self.written_out}|{name}{self.of}(?:{self.rates})?)"
 
     def general(self) -> re.Pattern[str]:
         """The form: M q'' + n = f."""
-        matrix, more = self.name.replace("NAME", "(?P<matrix>[A-Z])"), rf"(?:{_SIGN}{self.term})"
+        matrix, more = self.name.replace("NAME", f"(?P<matrix>{self.longer}[A-Z])"), rf"(?:{_SIGN}{self.term})"
         return re.compile(
             rf"{self.front}{matrix}{self.of}{self.acceleration}(?P<more>{more}{{0,3}})"
             rf"[ \t]{{0,9}}{self.equals}[ \t]{{0,9}}"
@@ -73,7 +77,7 @@ class _Notation:
 
     def part(self) -> re.Pattern[str]:
         """One of the columns that are added up."""
-        name = self.name.replace("NAME", "(?P<name>[A-Za-z])")
+        name = self.name.replace("NAME", f"(?P<name>{self.longer}[A-Za-z])")
         return re.compile(
             rf"(?P<sign>[-+−]?)[ \t]{{0,9}}(?:(?P<whole>{self.written_out})|{name}{self.of}(?P<rates>{self.rates})?)"
         )
@@ -88,7 +92,10 @@ _ZERO = r"(?:[\[{]?0[\]}]?(?!\w)|\\(?:mathbf|boldsymbol|bm|vec)[ ]?\{?[ ]?0[ ]?\
 _PLAIN = _Notation(
     of="(?:\\([\\w'’′\u0307\u0308 \\t,]{1,60}+\\))?",
     name=r"[\[{]?NAME[\]}]?",
-    acceleration="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[ \\t]?(?P<column>[qxzξ])[ \\t]?(?:''|″|’’|′′|\u0308)[ \\t]?\\}?",
+    acceleration=(
+        "[ \\t]{0,3}[·*]?[ \\t]{0,3}(?:\\{?[ \\t]?(?P<column>[qxzξ])[ \\t]?(?:''|″|’’|′′|\u0308)[ \\t]?\\}?"
+        "|(?P<listed>(?:\\[[^\\[\\]\n=]{3,200}\\]|\\((?=[^()\n]{1,200},)[^()\n=]{3,200}\\)(?=\\^T|ᵀ))(?:\\^T|ᵀ)?))"
+    ),
     rates="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[qxzξ](?:['’′\u0307]|(?![\\w'’′\u0307\u0308]))\\}?",
     written_out=r"\[[^\[\]\n=]{1,200}[,;][^\[\]\n=]{1,200}\](?:\^T|ᵀ)?",
     front=r"(?<![\w'’′)+*/^=-])",
@@ -117,6 +124,8 @@ _LATEX = _Notation(
     matrix=(r"\begin{bmatrix}", " & ", r" \\ ", r"\end{bmatrix}"),
     derived=r" \ddot{{{}}}",
 )
+_LONGER = re.compile(r"(?<![\w\\])([A-Za-z]_?[a-z]{1,2})_?(?:11|₁₁)[ \t]*=(?!=)")
+"""The name of several letters of a matrix, in front of the places of its first entry."""
 _FORMS = {False: (_PLAIN, _PLAIN.general(), _PLAIN.part()), True: (_LATEX, _LATEX.general(), _LATEX.part())}
 _ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
 
@@ -146,6 +155,10 @@ class _Form:
         self.text, self.count, self.taken, self.latex = text, len(coordinates), taken, latex
         self.places = _places(coordinates)
         self.notation, self.general, self.part = _FORMS[latex]
+        names = sorted(set() if latex else set(islice(_LONGER.findall(text), MOST)), key=len, reverse=True)
+        if names:
+            self.notation = replace(_PLAIN, longer="".join(rf"{x}(?![\w'’′])|" for x in names))
+            self.general, self.part = self.notation.general(), self.notation.part()
         self.symmetric: list[str] = []
         """What is said of entries that only symmetry gives."""
 
@@ -159,7 +172,10 @@ class _Form:
                 continue
             before = self.text[self.text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
             start, end = ("", "") if self.latex else ("\n" if before else "", "\n")
-            derived = self.notation.derived.format(match["column"])
+            listed = match.groupdict().get("listed")
+            if listed and not _ACCELERATION.search(listed):
+                continue
+            derived = f"*{listed}" if listed else self.notation.derived.format(match["column"])
             notes.update(dict.fromkeys(self.symmetric))
             yield *match.span(), f"{start}{square}{derived}{sides[0]} = {sides[1]}{end}"
 
@@ -183,7 +199,8 @@ class _Form:
         """The entries of a name that an answer gives, as it writes them."""
         given = rf"(?<![\w\\])({name}(?:{_INDEX}|{_NAMED_INDEX}))[ \t]{{0,9}}{self.notation.equals}(?!=)"
         found = {m.translate(LOWERED) for m in re.findall(given, self.text)}
-        entries = {re.sub(r"[_{}]", "", m)[len(name) :]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
+        begins = len(name.replace("_", ""))
+        entries = {re.sub(r"[_{}]", "", m)[begins:]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
         return {self.places.get(re.sub(r"[\\ ,]", "", place), place): m for place, m in entries.items()}
 
     def _square(self, name: str) -> str | None:

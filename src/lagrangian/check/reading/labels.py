@@ -24,6 +24,7 @@ _OF_CHAPTER = rf"{OF_CHAPTER}['′*]{{0,2}}"
 """A number with that of its chapter: II.1, A.2."""
 _NUMBERED = re.compile(
     rf"\s*(?:[(\[]\s*{_OF_CHAPTER}\s*[)\]]|\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"
+    r"|[(\[][ ]?(?:\*{1,3}|[†‡])[ ]?[)\]]"
     rf"|{_EQUATION}\.?\s*[(\[]?{_NUMBER}[)\]]?[.:]?|{_NUMBER}\s?(?:[.)]{{1,2}}|:)|(?P<open>[a-h](?=\))|[ivx]{{1,5}}|[IVX]{{1,4}})[.)])"
     r"(?=\s+(?:=+>|[^\s*/^=]))"
 )

@@ -36,3 +36,13 @@ LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 """The digits that stand for lowered ones."""
 OF_CHAPTER = r"(?:[IVX]{1,4}|[A-Z])\.\s?\d{1,2}[a-z]?"
 """The number of an equation in a chapter: IV.2, A.3b."""
+
+_ADDED = r"(?:(?:just|only|simply|here|now|the|an?|my|our|nur|einfach|hier|die|eine|der)[ \t]){0,2}"
+MEANS = (
+    rf"(?:(?:(?:is|be|being|ist|sei)[ \t]|,[ \t])?{_ADDED}"
+    r"(?:short(?:[ -]?hand)?|abbreviation|(?<=[ \t])(?:used|written)|kurz(?:form)?|abkürzung)[ \t](?:for|of|für|von)"
+    r"|(?:is|be|being|ist|sei)[ \t](?:the[ \t](?:sum|total|product)|die[ \t]Summe|just|only|simply|einfach|nur)"
+    r"(?:[ \t](?:of|von))?"
+    r"|is|be|being|means|denotes|abbreviates|equals|stands[ \t]for|ist|sei|bezeichnet|bedeutet|steht[ \t]für)"
+)
+"""Words between a name and the formula that it stands for: is short for, stands for, is the sum."""

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice, pairwise
 
+from lagrangian.check.reading.name_patterns import MEANS
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST = 200
@@ -21,10 +22,9 @@ _RAISED = re.compile(
 )
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
-_SAYS = r"(?:is|be|being|ist|sei|means|denotes|abbreviates|stands[ \t]for|bezeichnet|bedeutet|steht[ \t]für)"
 _STATED = re.compile(
     rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
-    rf"(?:=(?![=>])|{_SAYS}\b)",
+    rf"(?:=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))",
     re.MULTILINE,
 )
 _SUBTRACTED = re.compile(

@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.model import Model
-from lagrangian.read.letters import find, key, normal, spelled
+from lagrangian.read.letters import SPELLED, find, key, normal, spelled
 
 ENERGY_NAMES = {
     "T": "T",
@@ -129,17 +129,22 @@ class NamedForces:
 
 
 def momentum_of(name: str, model: Model) -> str | None:
-    """Return the coordinate whose momentum a name is: p_theta, p1."""
+    """Return the coordinate whose momentum a name is: p_theta, p1; pi, phi and psi are letters."""
     if find(name, model.symbols):
         return None
-    match = _MOMENTUM.match(spelled(name))
+    match = _momentum(spelled(name))
     return None if match is None else _coordinate(match["index"], model)
+
+
+def _momentum(name: str) -> re.Match[str] | None:
+    """What a momentum is called, and with which index; no Greek letter."""
+    return None if name in SPELLED.values() else _MOMENTUM.match(name)
 
 
 def of_coordinate(name: str) -> tuple[str, str] | None:
     """Return what a name is for a coordinate that it ends with, whatever that is: Q_z ("Xi", "z"), p_z ("p", "z")."""
     for kind, form in (("Xi", _FORCE), ("p", _MOMENTUM)):
-        match = form.match(spelled(name))
+        match = _momentum(spelled(name)) if kind == "p" else form.match(spelled(name))
         if match is not None and match["index"] and not match["index"].isdigit():
             return kind, match["index"]
     return None

@@ -73,7 +73,7 @@ def on_one_line(written: TracedText) -> TracedText:
         written = TracedText(written.text.translate(_PLAIN), written.origins)
     if "\\" not in written.text:
         written = written.sub(_BRACED_NAME, lambda m: m["name"]).sub(_BRACED_COLUMN, lambda m: f"[{m['entries']}]")
-    written = _blocks(_named_rows(written))
+    written = _blocks(_named_rows(written.edited(_named_in_the_middle(written.text))))
     if not _ARRAY.search(written.text):  # in which @ ends a row
         written = written.sub(_AT, lambda match: " * ")
     written = written.edited(tuples(written.text))
@@ -83,6 +83,33 @@ def on_one_line(written: TracedText) -> TracedText:
     written = written.edited(_row_ends(written.text))
     written = written.edited(_entry_gaps(written.text))
     return written.edited(transposed_sides(written.text))
+
+
+def _named_in_the_middle(text: str) -> Iterator[Edit]:
+    """A matrix whose rows are in lines below each other, with brackets above each other, and whose name stands in front
+    of one that is not the first, in one line behind its name."""
+    block: list[tuple[int, int, re.Match[str]]] = []
+    at = 0
+    for line in [*text.split("\n"), ""]:
+        row = (_ROW_ALONE.match(line) or _NAMED_ROW.match(line)) if len(line) < 2000 else None
+        opens = -1 if row is None else row.start("row") - 1
+        if block and opens != block[-1][1]:
+            yield from _named_before(text, block)
+            block = []
+        if row is not None:
+            block.append((at, opens, row))
+        at += len(line) + 1
+
+
+def _named_before(text: str, block: Sequence[tuple[int, int, re.Match[str]]]) -> Iterator[Edit]:
+    """The edits of such a matrix, if one of these rows has a name, and not the first."""
+    names = [(at, row) for at, _, row in block if row.re is _NAMED_ROW]
+    if len(names) != 1 or block[0][2].re is _NAMED_ROW or len({_commas(row["row"]) for _, _, row in block}) > 1:
+        return
+    at, named = names[0]
+    yield block[0][0], block[0][0] + block[0][1], text[at : at + named.start("row") - 1].strip() + " "
+    for (above, _, row), (below, opens, _) in pairwise(block):
+        yield above + row.start("close"), below + opens + 1, "; "
 
 
 def _named_rows(written: TracedText) -> TracedText:
@@ -217,9 +244,12 @@ def _names_last(text: str, rows: Sequence[_Row]) -> bool:
 
 
 def _row_ends(text: str) -> Iterator[Edit]:
-    """Semicolons for the ends of lines inside square brackets; blanks behind a semicolon and inside an entry."""
+    """Semicolons for the ends of lines inside square brackets; blanks behind a semicolon and inside an entry. The
+    marks of a display in LaTeX are no brackets."""
     depth, opened, ends = 0, 0, list[int]()
     for at, c in enumerate(text):
+        if c in "[]" and text[at - 1 : at] == "\\":
+            continue
         if c == "[":
             depth += 1
             opened = opened if depth > 1 else at

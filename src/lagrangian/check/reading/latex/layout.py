@@ -56,6 +56,58 @@ def with_open_text(written: TracedText) -> TracedText:
     return written.edited(edits)
 
 
+_DISPLAY = r"(?:equation|displaymath|align|gather|multline|eqnarray|flalign|dmath)\*?"
+_BETWEEN_DISPLAYS = re.compile(
+    rf"\s{{0,40}}(?:\\\]\s*+\\\[|(?P<dollars>\$\$\s*+\$\$|(?<!\$)\$[ \t]*+\n\s*+\$(?!\$))"
+    rf"|\\end\{{(?P<kind>{_DISPLAY})\}}\s*+\\begin\{{(?P=kind)\}})\s*+"
+)
+_SPACES = (
+    r"(?:\s|~|&|\\[,;:! ]|\\q?quad(?![A-Za-z])|\\(?:left\.|hspace\*?\{[^{}]{0,12}\}|phantom\{[^{}]{0,40}\})|\{\s?\})"
+)
+_GOES_ON = re.compile(
+    rf"(?P<gap>{_SPACES}*+)(?:(?P<sign>[-+−])|(?P<equals>=)|[*/·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))"
+)
+_OPEN_END = re.compile(rf"(?:[-+=*/·×(\[^]|\\(?:cdot|times|left[(\[]))(?:{_SPACES}|\\[^\W\d_]?\s)*+\Z")
+_ACCELERATES = re.compile(r"\\ddot|''|\^\{?\\prime\\prime|\\d?frac\{\s?(?:d|\\mathrm\{d\})\^")
+_ROW_ENDS_AT = re.compile(r"\\\\(?:\[[^\]]{0,12}\])?")
+_LARGEST = 3_000
+"""The most characters of a row at the end or the beginning of a display."""
+
+
+def with_displays_joined(text: str) -> str:
+    r"""Return a text in which a display that goes on in the next one, with nothing but space between them, is one with
+    it: \[ m\ddot x \] \[ {}+ kx = F \]. The next one begins with a sign, or the first one ends with one, and
+    not both state something."""
+    letters = list(text)
+    for match in list(_BETWEEN_DISPLAYS.finditer(text))[:_MAX]:
+        if (dollars := match["dollars"]) and text.count(dollars[:2].strip(), 0, match.start()) % 2 == 0:
+            continue  # the second ones are the end of a display
+        before = _ROW_ENDS_AT.split(text[max(0, match.start() - _LARGEST) : match.start()])[-1]
+        before = re.split(r"\\\[|\$|\\begin\{[a-z]{1,12}\*?\}", before)[-1]
+        behind = _ROW_ENDS_AT.split(text[match.end() : match.end() + _LARGEST], maxsplit=1)[0]
+        behind = re.split(r"\\\]|\$|\\end\{", behind, maxsplit=1)[0]
+        if _is_one(before, behind):
+            letters[match.start() : match.end()] = " " * len(match.group())
+    return "".join(letters)
+
+
+def _is_one(before: str, behind: str) -> bool:
+    """Whether the end of a display and the beginning of the next one are one equation."""
+    stated = [x.count("=") for x in (before, behind)]
+    goes_on = _GOES_ON.match(behind)
+    if (
+        not before.strip()
+        or not behind.strip()
+        or min(stated) > (goes_on is not None and goes_on["equals"] is not None)
+    ):
+        return False
+    if goes_on is None:
+        return max(stated) == 1 and _OPEN_END.search(before) is not None
+    if goes_on["sign"] is None or goes_on["gap"].strip():
+        return True
+    return sum(stated) > 0 and (stated[0] > 0 or _ACCELERATES.search(before) is not None)
+
+
 def without_brackets_around(text: str) -> str:
     r"""Return a row of LaTeX without brackets around it in which equations stand: \bigl(C = \cos\theta\bigr)."""
     match = _AROUND.fullmatch(text)

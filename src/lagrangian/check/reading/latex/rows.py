@@ -10,6 +10,7 @@ from lagrangian.check.reading.labels import DIRECTIONS
 from lagrangian.check.reading.latex.layout import (
     closing,
     remark_end,
+    with_displays_joined,
     without_braces,
     without_brackets_around,
     without_end_marks,
@@ -130,7 +131,7 @@ _FORMULA = re.compile(
 def latex_rows(text: str) -> list[AnswerRow]:
     """Return the statements of an answer in LaTeX; words around the mathematics are ignored."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
-    text = _EQUALS.sub(lambda m: "=".ljust(len(m.group())), text)
+    text = _EQUALS.sub(lambda m: "=".ljust(len(m.group())), with_displays_joined(text))
     found = list(_mathematics(text))
     if not found:
         return _statements(text, 0, lines=True)

@@ -21,7 +21,7 @@ LONGEST = 400
 
 _SENTENCE = re.compile(r"(?:[.;!?](?=\s|$)|\n[ \t]*\n)")
 _REST = (
-    r"(?:static|equilibri\w{1,3}|position[ ]of[ ]rest|rest[ -]position|place[ ]of[ ]rest|ruhelagen?|"
+    r"(?:static|equilibri\w{1,3}|(?:positions?|places?|state)[ ](?:of|at)[ ]rest|rest[ -]position|ruhelagen?|"
     r"gleichgewichts?\w{0,8}|statische[rn]?|équilibre)\b"
 )
 _FROM_REST = re.compile(
@@ -46,7 +46,7 @@ _DEVIATION = re.compile(
     re.IGNORECASE,
 )
 _COUNTED = re.compile(
-    r"\b(?:measur\w{1,4}|count\w{1,3}|taken|reckon\w{1,3}|deviations?|displacements?|departures?|excursions?|deflections?|"
+    r"\b(?:measur\w{1,4}|count\w{0,3}|taken|reckon\w{1,3}|deviations?|displacements?|departures?|excursions?|deflections?|"
     r"offsets?|origin|zero|coordinates?|gemessen|gezählt|auslenkung\w{0,2}|abweichung\w{0,2})\b",
     re.IGNORECASE,
 )

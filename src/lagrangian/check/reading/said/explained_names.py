@@ -17,7 +17,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice
 
-from lagrangian.check.reading.name_patterns import CALLED_AFTER, CALLED_SO
+from lagrangian.check.reading.name_patterns import CALLED_AFTER, CALLED_SO, MEANS
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
@@ -49,13 +49,14 @@ _BRACKETED = re.compile(
 )
 """A name, what it is in words, and its formula in brackets with an equals sign."""
 _SAID = re.compile(
-    rf"(?:^[ \t]*+|(?<=[.,;:][ ])|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})[ \t]++"
-    r"(?:is|being|means|denotes|stands[ \t]for|is[ \t]short[ \t]for|abbreviates|ist|bezeichnet|steht[ \t]für)[ \t]++"
+    r"(?:(?<!\w)(?P<open>\()[ \t]?(?:(?:where|with|here|mit|wobei)[ \t])?|^[ \t]*+|(?<=[.,;:][ ])"
+    rf"|(?<!\w)(?:here|hier|where|with|and|mit|wobei|und)[ \t]++)(?P<new>{_NAME})(?:[ \t]++|(?=,[ \t])){MEANS}[ \t]++"
     r"(?P<value>[^\n;:=]{0,30}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
-    rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t])))",
+    r"(?P<end>[ \t]*(?(open)\)(?=[ \t]*(?:[.,;]|$))"
+    rf"|(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t]))))",
     re.MULTILINE | re.IGNORECASE,
 )
-"""A name and its formula in a sentence."""
+"""A name and its formula in a sentence, perhaps in brackets."""
 _NAMED_BEHIND = re.compile(
     rf"(?P<said>[ \t]*,?[ \t]+{CALLED_SO}(?P<new>{_NAME}){CALLED_AFTER})(?=[ \t]*(?:[.,;](?=\s|$)|$))",
     re.MULTILINE | re.IGNORECASE,

@@ -4,6 +4,7 @@ r"""Reads tables of Markdown in which no cell states anything by itself: what st
 | q | ∂L/∂q̇ | d/dt | Q |   | x | m ẋ | m ẍ | F |     ∂L/∂x' = m ẋ   d/dt(∂L/∂x') = m ẍ   Q_x = F
 | part | kinetic | potential |   | plate | ½ M ẏ² | M g y |   T_plate = ½ M ẏ²   V_plate = M g y
 | | x | y |   | ∂L/∂q̇ | m ẋ | m ẏ |                 ∂L/∂x' = m ẋ   ∂L/∂y' = m ẏ
+| letter | meaning |   | e | x - u, stretch |       e = x - u           a new letter, its value and words about it
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from itertools import islice
 
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.quantities.units import lookup
 from lagrangian.records import dataclass
 
 MOST, LONGEST = 40, 4_000
@@ -109,7 +111,8 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
             edits += ((*m.span(), "") for m in equal if sides)
             equal = [] if sides else equal
             continue
-        made = _made([cells[0], *cells[2:]], moves, taken)
+        rows = [cells[0], *cells[2:]]
+        made = _made(rows, moves, taken) or _of_letters(rows, taken)
         if made is None:
             continue
         at = match.start()
@@ -183,6 +186,58 @@ def _made(
         said = [[*_listed(kinds, [row[0]] * (width - 1), row[1:], None)] for row in body]
         return [[], *said] if any(said) else None
     return None
+
+
+_NEW = re.compile(r"\\?[^\W\d][^\W_]{0,11}(?:_\w{1,11}|_\{\w{1,11}\})?(?:\(t\))?['’′]{0,2}")
+"""A letter of the answer's own, in a cell."""
+_SAID = re.compile(r"[^\n=+*/^\\()]*[^\W\d_]{3}[^\n=+*/^\\]*")
+"""Words about a letter."""
+_NAMES = re.compile(r"(?<![\w\\])\\?[^\W\d_][^\W_]*(?:_\w+)?")
+_MOST_WORDS = 240
+"""The most characters of such a cell."""
+
+
+def _of_letters(rows: Sequence[Sequence[str]], taken: Callable[[str], bool]) -> list[list[str]] | None:
+    """The statements of a table that lists the letters of an answer with their values, before or behind words in the
+    same cell or in another one; None for another table. A letter that the system has is only told."""
+    made: list[list[str]] = [[]]
+    new = {_name(row[0]) for row in rows[1:] if _NEW.fullmatch(row[0]) and not taken(_name(row[0]))}
+
+    def known(name: str) -> bool:
+        return taken(name) or name in new
+
+    for row in rows[1:]:
+        values = [x for cell in row[1:] if (x := _value_in(cell, known)) is not None]
+        own = _name(row[0]) in new and len(values) == 1 and values[0] != row[0]
+        made.append([_statement(row[0], values[0], latex="\\" in row[0] + values[0])] if own else [])
+    return made if new and any(made) and all(_SAID.fullmatch(x) or not x for x in rows[0]) else None
+
+
+def _value_in(cell: str, known: Callable[[str], bool]) -> str | None:
+    """The formula of known names that a cell holds beside words: x - u, the stretch; total mass: M + m."""
+    if len(cell) > _MOST_WORDS:
+        return None
+    if _is_value(whole := re.sub(r"[`$]", " ", cell).strip(), known):
+        return whole
+    for mark in re.finditer(r"[,;:](?=[ ])|[`$]|(?<=[ ])[(–—-](?=[^\W\d_]{3})", cell):
+        parts = [re.sub(r"[`$]", " ", x).strip(" ,;:") for x in (cell[: mark.start()], cell[mark.end() :])]
+        for value, words in (parts, parts[::-1]):
+            if _is_value(value, known) and _SAID.fullmatch(words):
+                return value
+    return None
+
+
+def _is_value(written: str, known: Callable[[str], bool]) -> bool:
+    """Whether a text is a formula all of whose names are known, and no mere number or unit."""
+    names = [_name(x) for x in _NAMES.findall(written)]
+    if not re.search(r"[-−+(]", written) and all(lookup(x) is not None for x in names):
+        return False  # N/m
+    stray = [x for x in names if function_of(x) is None and x not in _COMMANDS and not known(x)]
+    return bool(names) and not stray and re.search(r"[=,:;]", written) is None
+
+
+_COMMANDS = frozenset(["frac", "dfrac", "tfrac", "sqrt", "dot", "ddot", "cdot", "left", "right", "mathrm", "t"])
+"""What is no name of a quantity in a formula."""
 
 
 def _parts(
