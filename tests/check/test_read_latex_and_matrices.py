@@ -280,3 +280,14 @@ def test_dots_of_latex_among_words(said: str) -> None:
     assert pendulum().check("(*) " + (IN_WORDS + said).replace("      (*)", "", 1)).right
     assert not pendulum().check(IN_WORDS.replace("+ b", "- b") + said).right
     assert not pendulum().check(IN_WORDS.replace("sinφ", "cosφ") + said).right
+
+
+@pytest.mark.parametrize("kind", ["multline", "align", "equation"])
+def test_displays_whose_equations_go_on_over_their_rows_stay_apart(kind: str) -> None:
+    first, second = (
+        r"(J + m r^2)\ddot\varphi \\ + 2 m r\dot r\dot\varphi = M",
+        r"-k(r - a) \\ + m r\dot\varphi^2 = m\ddot r",
+    )
+    written = "\n".join(rf"\begin{{{kind}}} {x} \end{{{kind}}}" for x in (first, second))
+    assert rod().check(written).right
+    assert not rod().check(written.replace("-k(r", "k(r")).right

@@ -84,8 +84,9 @@ def with_displays_joined(text: str) -> str:
             continue  # the second ones are the end of a display
         before = _ROW_ENDS_AT.split(text[max(0, match.start() - _LARGEST) : match.start()])[-1]
         before = re.split(r"\\\[|\$|\\begin\{[a-z]{1,12}\*?\}", before)[-1]
-        behind = _ROW_ENDS_AT.split(text[match.end() : match.end() + _LARGEST], maxsplit=1)[0]
-        behind = re.split(r"\\\]|\$|\\end\{", behind, maxsplit=1)[0]
+        next_one = re.split(r"\\\]|\$|\\end\{", text[match.end() : match.end() + _LARGEST], maxsplit=1)[0]
+        behind, *below = _ROW_ENDS_AT.split(next_one)
+        behind = behind if "=" in behind else "".join((behind, *below))  # its first equation, over several rows
         if _is_one(before, behind):
             letters[match.start() : match.end()] = " " * len(match.group())
     return "".join(letters)
