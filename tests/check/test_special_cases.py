@@ -169,3 +169,13 @@ def test_where_a_function_vanishes_is_no_equation(said: str) -> None:
     assert derivation("pendulum").check(f"{row}\n{said}").right
     assert not derivation("pendulum").check(f"{row.replace('+ b', '- b')}\n{said}").right
     assert not derivation("pendulum").check(f"{row.replace('sin θ', 's')}\nwhere s = cos θ = 0").right
+
+
+@pytest.mark.parametrize(("inertia", "right"), [("2mL²/3", True), ("2mL^2/3", True), ("mL²/3", False)])
+def test_a_product_glued_to_a_number_is_no_volume(inertia: str, right: bool) -> None:
+    s = lg.System("two rods on a shaft")
+    theta = s.coordinate("theta")
+    m, L = s.parameters("m L")
+    s.kinetic(2 * m * L**2 / 3 * theta.diff() ** 2 / 2)
+    s.torque(s.input("M"), on=theta)
+    assert s.derive().check(f"I0 theta'' = M\nwhere I0 = {inertia}").right is right

@@ -289,12 +289,14 @@ def _is_amount(text: str, number: AnswerToken, end: int, words: Words) -> bool:
 
 def _is_unit(behind: str, name: str, words: Words) -> bool:
     """Whether what follows the number in a value is a unit alone: no function and no name that moves stands in it, as
-    in 2 F l cos θ, and a ``name`` of the answer's own is not given names of the system, as in m_t = 2 m."""
+    in 2 F l cos θ, and a ``name`` of the answer's own is not given names of the system, as in m_t = 2 m, or, without a
+    blank, their product, J0 = 2mL²/3."""
     listed = re.findall(r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*", behind)
     parts = [part for x in listed for part in words.factors(x)]  # 2L cosθ
     if any(function_of(x) is not None or words.names.changes(x) for x in (*listed, *parts)):
         return False
-    return not words.is_own(name) or not all(words.known(x) for x in listed)
+    glued = behind[:1].isalpha()
+    return not words.is_own(name) or not all(words.known(x) or (glued and words.is_product(x)) for x in listed)
 
 
 def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None, int]:
