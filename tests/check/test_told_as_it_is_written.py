@@ -119,3 +119,41 @@ def test_the_sine_of_an_angle_is_told_as_it_is_written(sine: str) -> None:
     shown = str(judged(answer).to_text())
     assert "sin(beta)" in shown or "sin β" in shown
     assert not any(x in shown for x in ("p β", "β²"))
+
+
+@pytest.mark.parametrize(
+    ("arm", "wrong"),
+    [
+        ("sin(beta) = q sin(phi)/z", "sin(beta) = p sin(phi)/z"),
+        ("sin(beta) = q sin(phi)/z", "sin(beta) = q cos(phi)/z"),
+        ("u = q sin(phi)/z", "u = p sin(phi)/z"),
+    ],
+)
+def test_a_line_is_not_blamed_that_is_right_with_the_right_arm(arm: str, wrong: str) -> None:
+    name = arm.partition(" =")[0]
+    answer = f"S = k (z - n) + b p q sin(phi)/z phi'\n{{}}\n{LEFT} + S p {name} = 0"
+    assert check_answer(hatch(), answer.format(arm)).right
+    verdict = judged(answer.format(wrong))
+    assert [f.line.number for f in verdict.open_findings] == [2]
+    said = [str(m.what) for m in verdict.mistakes]
+    assert len(said) == 1 and said[0].startswith(f"Line 2 is not right: the value of {name} is q*sin(phi)/z, not "), (
+        said
+    )
+
+
+def test_a_determinant_is_to_blame_and_not_what_is_divided_by_it() -> None:
+    """With right sides that have names, too, which are no forces."""
+    s = lg.System("two carts")
+    x, y = s.coordinates("x y")
+    m, n, k = s.parameters("m n k")
+    s.particle(m, at=s.point("A", (x, 0)), name="cart")
+    s.particle(n, at=s.point("B", (x + y, 0)), name="rider")
+    s.spring(k, deflection=y, name="spring")
+    answer = (
+        "A = m + n, B = n, C = n\nA x'' + B y'' = f1\nB x'' + C y'' = f2\nf1 = 0\nf2 = -k y\n"
+        "D = A C {} B^2\nx'' = (C f1 - B f2)/D\ny'' = (A f2 - B f1)/D"
+    )
+    assert check_answer(s.derive(), answer.format("-")).right
+    verdict = check_answer(s.derive(), answer.format("+"))
+    assert [f.line.number for f in verdict.open_findings] == [6]
+    assert all("Line 6" in str(m.what) for m in verdict.mistakes)

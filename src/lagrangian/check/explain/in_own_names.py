@@ -35,8 +35,6 @@ _OF_DEFINITION = re.compile(r"Line (\d{1,6}) is not right: the ")
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
 _STATED = re.compile(r"(?:\A|[,;:.({&$]|\w{3}[ \t])[ \t]*\\?([^\W\d]\w{0,63})(['’′]{0,2})[ \t&]*\Z")
 """A name, or its rate, that is all there is on the left, behind words."""
-_FUNCTION = re.compile(r"[ \t$]*\\?(?P<of>sin|cos|tan)[ \t]*(?:\(|\\left\(|[ {\\]|(?=[^\x00-\x7f]))[^=+\n]{1,30}=")
-"""How a definition begins that says what the sine of a name is."""
 _MARKS = ("'", "’", "′", "\u0307", "\u0308")
 """What makes a rate of the name that stands before it."""
 _APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
@@ -106,8 +104,7 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
         if line.kind == "definition" and _WORD.fullmatch(name) and key(name) in used - taken:
             found.setdefault(name, set()).add(line.expr)
             own: Any = moving_symbol(name) if _moves(line.expr) else sp.Symbol(name)
-            function = _FUNCTION.match(line.text)
-            symbols[name] = own**2 if line.of_square else getattr(sp, function["of"])(own) if function else own
+            symbols[name] = own**2 if line.of_square else line.of_function(own)
     anywhere = {name for line in lines for name in names_in(line)}
     stated = {name for line in wrong if (name := _stated_in(line))}
     for d in truth.model.definitions:

@@ -289,6 +289,8 @@ def with_forces_of_below(
     """
     if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
         return verdict
+    if verdict.mistakes and all(f.line.kind == "definition" for f in verdict.open_findings):
+        return verdict  # the lines with this name are right as they are written
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
     if not solved or len({x.name for x in solved}) < len({x.number for x in solved}):
         return verdict
