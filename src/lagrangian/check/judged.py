@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.balances import with_balances
 from lagrangian.check.beside import beside
 from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
@@ -104,9 +105,11 @@ def judged_lines(
         )
         findings = follow_from_inner_rates(truth, follow_from_given_rates(truth, findings))
         findings = follow_from_values(truth, follow_from_own_rates(truth, follow_from_rates(truth, findings)))
-        findings = with_consequences(truth, findings)
+        findings = with_consequences(truth, _with_wrong_names(truth, findings))
     status, found = _overall(truth, comparison, _told_once(truth, findings))
-    motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not _use_wrong_slopes(found)
+    right = sum(f.status.right for f in found if f.line.kind == "equation")
+    by_name = _use_wrong_slopes(found) or right < sum(row.true for row in comparison.rows)
+    motion = status is Status.WRONG and _ends_right(truth, equations, comparison) and not by_name
     silent = _silent(truth, moved)
     if silent and status.right:
         status = Status.INCOMPLETE
@@ -142,6 +145,25 @@ def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
     rows = exprs[wrong[-1] + 1 :] if wrong else exprs
     rank = comparison.rank if rows is exprs or len(rows) < truth.n else compare(truth, rows).rank
     return len(rows) >= truth.n and rank >= truth.n
+
+
+def _with_wrong_names(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with the equations marked that are right by a name of the system alone of which a line above says
+    what is wrong: ṡ = b c cos θ θ̇/(2 s), and then c ṡ."""
+    names = {x for d in truth.model.definitions if d.moving for x in (d.symbol, bounded.diff(d.symbol, time))}
+    wrong = [
+        (f.line.number, f.line.sides[0])
+        for f in findings
+        if f.is_open and f.line.kind in ("equation", "identity") and f.line.sides and f.line.sides[0] in names
+    ]
+
+    def uses(finding: Finding) -> bool:
+        line = finding.line
+        above = [x for number, x in wrong if number < line.number]
+        named = bool(above) and line.sides is not None and any(x.has(*above) for x in line.sides)
+        return named and line.kind == "equation" and finding.status.right
+
+    return [replace(f, status=Status.WRONG, note=None, follows=True) if uses(f) else f for f in findings]
 
 
 def _use_wrong_slopes(findings: Sequence[Finding]) -> bool:

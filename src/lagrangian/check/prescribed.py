@@ -24,6 +24,8 @@ WHY_FUNCTIONS = text(
 )
 LOST = ("lost", "lost_in_a_sum", "factor_missing")
 """The names of mistakes that say which factor is missing."""
+OF_OWN = ("T-p", "T-slope", "V-slope", "D-slope")
+"""The kinds of lines that give derivatives of the answer's own energies by a coordinate or its rate."""
 FUNCTIONS = "functions of time"
 """The name of a line that equates them."""
 WHY_TWICE = text("Differentiate the velocity term by term: by the product rule each factor that moves has its turn.")
@@ -111,7 +113,23 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
         else:
             out.append(replace(line, kind="identity", expr=rest, name=str(z.func) + of_rate * "'"))
     tables = (table if line.expr.free_symbols & letters else {**table, **numbers} for line in out)
-    return tuple(_put(line, own) if own else line for line, own in zip(out, tables, strict=True))
+    return tuple(
+        _put(_of_own_energy(truth, line, out, own), own) if own else line for line, own in zip(out, tables, strict=True)
+    )
+
+
+def _of_own_energy(
+    truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine], table: Mapping[Any, sp.Expr]
+) -> AnsweredLine:
+    """A derivative of the answer's own T*, V or D with what it has too much where the names of the system in this are
+    what the answer says."""
+    c = next((x for x in truth.model.coordinates if x.name == line.name), None)
+    energies = [x.expr for x in lines if x.kind == line.kind[0] and x.number <= line.number and x.expr.has(*table)]
+    if c is None or line.kind not in OF_OWN or not energies:
+        return line
+    by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
+    right, own = truth.expand(energies[-1]), bounded.written_out(energies[-1], table)
+    return replace(line, expr=line.expr + bounded.diff(right, by) - bounded.diff(own, by))
 
 
 def _is_true(truth: Reference, rest: sp.Expr) -> bool:

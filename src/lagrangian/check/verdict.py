@@ -36,6 +36,8 @@ class Status(StrEnum):
 
 _SQUARE = re.compile(r"(?:²|(?:\^|\*\*)[ ]?\{?[ ]?2[ ]?\}?)[ \t$&]*\Z")
 """How the left side of a statement ends that is a square."""
+_FUNCTION = re.compile(r"[ \t$]*\\?(?P<of>sin|cos|tan)[ \t]*(?:\(|\\left\(|[ {\\]|(?=[^\x00-\x7f]))[^=+\n]{1,30}=")
+"""How a definition begins that says what the sine of a name is."""
 IS_MISSING = " is missing"
 """What a note says behind the name of what an incomplete answer lacks."""
 WOULD_BE_RIGHT = "would be right"
@@ -88,6 +90,11 @@ class AnsweredLine(Brief):
     def of_square(self) -> bool:
         """Whether a definition gives the square of its name: ω² = k/m."""
         return self.kind == "definition" and _SQUARE.search(self.text.partition("=")[0]) is not None
+
+    def of_function(self, symbol: sp.Expr) -> sp.Expr:
+        """The sine, cosine or tangent of a name of which a definition gives that, sin α = h/s; else its symbol."""
+        found = _FUNCTION.match(self.text) if self.kind == "definition" else None
+        return getattr(sp, found["of"])(symbol) if found is not None else symbol
 
     @property
     def opening(self) -> str:

@@ -56,7 +56,8 @@ class OwnName:
     @property
     def key(self) -> str:
         """The key of the name, also of its rate."""
-        return _named(self.symbol.args[0] if isinstance(self.symbol, (sp.Derivative, sp.Pow)) else self.symbol)
+        alone = isinstance(self.symbol, (sp.Symbol, AppliedUndef))
+        return _named(self.symbol if alone else self.symbol.args[0])
 
 
 def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
@@ -102,8 +103,8 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
         name = line.name or ""
         if line.kind == "definition" and _WORD.fullmatch(name) and key(name) in used - taken:
             found.setdefault(name, set()).add(line.expr)
-            own = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
-            symbols[name] = cast("sp.Expr", own**2) if line.of_square else own
+            own: Any = moving_symbol(name) if _moves(line.expr) else sp.Symbol(name)
+            symbols[name] = own**2 if line.of_square else line.of_function(own)
     anywhere = {name for line in lines for name in names_in(line)}
     stated = {name for line in wrong if (name := _stated_in(line))}
     for d in truth.model.definitions:

@@ -34,7 +34,7 @@ from lagrangian.check.explain.line_mistakes import (
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_denominators import mistake_of
-from lagrangian.check.explain.own_rates import wrong_rates
+from lagrangian.check.explain.own_rates import of_rate, wrong_rates
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reasoned import as_defined, reasoned
@@ -100,7 +100,7 @@ def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right:
     named = _of_lines(truth, lines, findings, right)
     derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
     if named.told or not derived or not any(f.follows for f in findings):
-        told = () if named.told else of_relation(truth, findings)
+        told = () if named.told else of_relation(truth, findings) or of_rate(truth, findings)
         return replace(named, told=told, left=()) if told else named
     free = [replace(f, follows=f.follows and f.line.kind != "equation") for f in findings]
     return _of_lines(truth, lines, free, right)

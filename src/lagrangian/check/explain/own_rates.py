@@ -18,7 +18,7 @@ from lagrangian.check.explain.quantities import Effect, Sayable, damped, quantit
 from lagrangian.check.explain.said_wrongly import InWords, SaidWrongly, put, told
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.model import Damper
 from lagrangian.read.letters import key
 
@@ -42,6 +42,13 @@ def said_of_length(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly
             effect = put(truth, _effect(truth, s, right, written, weights=weights))
             if effect.T != 0 or any(effect.Xi) or any(effect.left):
                 yield SaidWrongly(line, effect, partial(_in_words, s, of, right, written))
+
+
+def of_rate(truth: Reference, findings: Sequence[Finding]) -> tuple[Mistake, ...]:
+    """What is wrong in the first wrong line, if it is such an equation and all below have the rate by its name."""
+    first = next((f.line for f in findings if f.is_open), None)
+    found = None if first is None else next(said_of_length(truth, first), None)
+    return () if found is None else (found.mistake,)
 
 
 def _said(truth: Reference, line: AnsweredLine) -> Iterator[tuple[sp.Expr, sp.Expr, sp.Expr]]:

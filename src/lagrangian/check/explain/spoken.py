@@ -16,7 +16,7 @@ from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.model import Gravity
-from lagrangian.page.formula import Text, text
+from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
 WHY_COPIED = "The Lagrangian is kinetic minus potential energy: take both as they stand above."
 ALIKE = 0.05
@@ -49,7 +49,12 @@ def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
 
 def in_lagrangian(mistake: Mistake, line: AnsweredLine) -> Mistake:
     """A mistake in L where T* or V, in which it would be made, is right: it was made when L was written down."""
-    first, *more = mistake.what.parts
+    parts: list[str | Left | Verbatim] = []
+    for x in mistake.what.parts:
+        of_energy = x in (Name("T*"), Name("V")) and bool(parts) and str(parts[-1]).endswith(" in ")
+        parts += [] if of_energy else [x]
+        parts[-1] = str(parts[-1]).removesuffix(" in ") if of_energy else parts[-1]
+    first, *more = parts
     words = f"{str(first)[:1].lower()}{str(first)[1:]}" if isinstance(first, str) else first
     where = f"Not above, where it is right, but in {line.title}: "
     return replace(mistake, what=text(where, words, *more), why=text(WHY_COPIED), step=4)

@@ -12,11 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.certain_first import with_certain_terms
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
+from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.terms.pieces import partner
@@ -42,12 +44,17 @@ OF_LETTERS = (
 )
 """Names of mistakes in the powers of letters and rates."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
+WHY_DOUBLE_V = text("V has the square of a whole deflection, and (a − b)² has the double product −2 a b, too.")
+MADE_IN_STEPS = {2: ("T", "kinetic"), 3: ("V", "potential")}
+"""The kind of the line that states what is made in a step, and which energies its parts are."""
 NOT = ", not "
 """What stands between what is right and what is written."""
 BESIDE = (NOT, " is not ", " should be ", " stands where ")
 """What stands between what is written and what belongs there, in either order."""
 EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
+MISSING = " is missing."
+"""How words end that miss something."""
 _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
 """How words begin that blame a line."""
 _OF_ENERGY = re.compile(r"\b(?:in V|energy|height|position)\b")
@@ -65,7 +72,7 @@ def told_truly(verdict: Verdict) -> Verdict:
 
 def _unrefuted(verdict: Verdict) -> Verdict:
     """The verdict with mistakes that its lines do not refute, each once."""
-    mistakes = [_without_refuted_reason(m, verdict) for m in verdict.mistakes]
+    mistakes = [_of_lagrangian(_without_refuted_reason(m, verdict), verdict) for m in verdict.mistakes]
     refuted = [_is_refuted(m, verdict) for m in mistakes]
     if not any(refuted):
         return replace(verdict, mistakes=tuple(_once(mistakes, verdict)))
@@ -78,7 +85,7 @@ def _unrefuted(verdict: Verdict) -> Verdict:
         elif k == 0 and others:
             kept.append(others[0])
         else:
-            kept += _terms_of(m, verdict)
+            kept += [replace(x, why=WHY_DOUBLE_V) if _is_there(m, verdict) else x for x in _terms_of(m, verdict)]
     told = tuple(_once(kept, verdict))
     texts = {str(m.what) for m in told}
     return replace(verdict, mistakes=told, alternatives=tuple(m for m in others if str(m.what) not in texts))
@@ -119,7 +126,7 @@ def _only_follows(mistake: Mistake, verdict: Verdict) -> bool:
 def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether the lines of an answer speak against a mistake."""
     said = str(mistake.what)
-    if _says_nothing(mistake):
+    if _says_nothing(mistake) or _is_there(mistake, verdict):
         return True
     if (blamed := _BLAMES.match(said)) is not None:
         own = [f for f in verdict.findings if f.line.number == int(blamed["number"])]
@@ -142,6 +149,29 @@ def _says_nothing(mistake: Mistake) -> bool:
     parts = mistake.what.parts
     pairs = ((a, b) for a, x, b in zip(parts, parts[1:], parts[2:], strict=False) if x in BESIDE)
     return any(isinstance(a, sp.Expr) and isinstance(b, sp.Expr) and bounded.expand(a - b) == 0 for a, b in pairs)
+
+
+def _of_lagrangian(mistake: Mistake, verdict: Verdict) -> Mistake:
+    """A mistake in an energy that the answer states right, as one that is made in ℒ, where the answer goes wrong."""
+    if mistake.step not in MADE_IN_STEPS or {f.line.kind for f in verdict.open_findings} != {"L"}:
+        return mistake
+    kind, part = MADE_IN_STEPS[mistake.step]
+    told = [f for f in verdict.findings if f.line.kind == kind]
+    parts = [x for x in right_notes(verdict) if f"{part} energy of" in x and (mistake.element or "?") in x]
+    if not (parts or told) or not all(f.status.right for f in told):
+        return mistake
+    return in_lagrangian(replace(mistake, brief=None), verdict.open_findings[0].line)
+
+
+def _is_there(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a letter is said to be missing that stands in a constant term of the wrong V or ℒ, as ½ k s₀² without
+    the double product of (s − s₀)²."""
+    lacking = str(mistake.what).endswith(MISSING)
+    letters = {x for x in mistake.what.parts if isinstance(x, sp.Symbol)} if lacking else set[sp.Symbol]()
+    wrong = [f.line for f in verdict.open_findings if f.line.kind in ("V", "L")]
+    terms = (x for line in wrong for x in sp.Add.make_args(bounded.expand(line.expr)))
+    constants = (x for x in terms if not x.has(AppliedUndef, time))
+    return any(letters & x.free_symbols for x in constants)
 
 
 def _is_of_right_slope(mistake: Mistake, verdict: Verdict) -> bool:

@@ -22,6 +22,7 @@ from lagrangian.check.explain.either_sign import sign_in_one_of_two
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
 from lagrangian.check.explain.pieces_shared import wrong_share
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
+from lagrangian.check.explain.solved import NAME as SOLVED
 from lagrangian.check.explain.solved_forces import (
     Balances,
     balances_of,
@@ -289,6 +290,9 @@ def with_forces_of_below(
     """
     if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
         return verdict
+    definitions = all(f.line.kind == "definition" for f in verdict.open_findings)
+    if definitions and any(m.name == SOLVED for m in verdict.mistakes):
+        return verdict  # of a determinant: the lines that are divided by it are right as they are written
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
     if not solved or len({x.name for x in solved}) < len({x.number for x in solved}):
         return verdict

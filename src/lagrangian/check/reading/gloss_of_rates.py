@@ -24,6 +24,12 @@ _GLOSS = re.compile(
     rf"[ \t]*+(?P<gloss>\((?P<equal>[ \t]*+[=≡])?[ \t]*+(?P<other>{_RATE})[ \t]*+\))(?=[ \t]*+(?:[,;.]\s|[,;.]?$))",
     re.MULTILINE,
 )
+_SLOPE = re.compile(
+    rf"^(?P<value>[ \t]*+[^\W\d]\w{{0,23}}+[ \t]*+(?::=|=)[^=\n]{{1,200}}?)"
+    rf"(?:[ \t]{{3,}}|[ ]?\t[ \t]*)\([ \t]*+=?[ \t]*+[d∂][ ]?{_NAME}[ ]?/[ ]?[d∂][ ]?{_NAME}[ \t]*+\)[ \t]*$",
+    re.MULTILINE,
+)
+"""A value of a name and, apart from it, the derivative that it is: r = …      (ds/dtheta)."""
 _DERIVATIVES = re.compile(
     rf"\([ ,]{{0,24}}(?P<listed>{_NAME}(?:[ ]?(?:,|and|und)[ ]{_NAME}){{0,11}})[ ,:]{{1,3}}(?:(?:are|sind|for)[ ])?"
     r"(?:their|the|its|ihre|die)[ ](?:time[ ])?(?:derivatives?|rates?|velocities|[Aa]bleitungen)[ .]?\)"
@@ -34,7 +40,8 @@ _LETTERS = re.compile(r"(?P<of>[^\W\d_]\w{0,20}?)_?(?P<dots>ddot|dot)")
 
 
 def without_glosses_of_rates(text: TracedText, changes: Callable[[str], bool]) -> TracedText:
-    """Return an answer without the brackets behind a rate that hold the same rate in another spelling.
+    """Return an answer without the brackets behind a rate that hold the same rate in another spelling, and without
+    those that say, apart from a value, which derivative it is.
 
     ``changes`` says whether a name changes with time.
     """
@@ -53,7 +60,8 @@ def without_glosses_of_rates(text: TracedText, changes: Callable[[str], bool]) -
         rates = [any(changes(stem) for _, stem in spelled_rates(x)) or changes(x) for x in listed]
         return "" if all(rates) else match.group()
 
-    return text.sub(_GLOSS, plain).sub(_DERIVATIVES, without_list)
+    apart = text.sub(_SLOPE, lambda m: m.group() if m["value"].rstrip()[-1:] in "*/+-−·×^(" else m["value"])
+    return apart.sub(_GLOSS, plain).sub(_DERIVATIVES, without_list)
 
 
 def _rate(written: str) -> tuple[str, int, str] | None:
