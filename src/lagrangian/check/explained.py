@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian.check.coordinates.tried import new_names
+from lagrangian.check.explain.advice import without_lagrange
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.combinations_meant import MeantCombination, as_combinations, open_equations
 from lagrangian.check.explain.definitions import with_wrong_definitions
@@ -33,7 +34,9 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     named = mistakes(truth, spelling.lines, judged.findings)
     open_ones = open_equations(verdict.findings) if not named.told or named.left or not named.sure else []
     unexplained = open_ones if not named.sure else [f for f in open_ones if any(f.line is x for x in named.left)]
-    findings, meant = as_combinations(truth, verdict.findings, unexplained or open_ones)
+    several = len(named.told) > 1 and without_lagrange(spelling.lines)
+    compared = open_equations(verdict.findings) if several else unexplained or open_ones
+    findings, meant = as_combinations(truth, verdict.findings, compared, half=several)
     if meant:
         return _with_combinations(truth, spelling, replace(verdict, findings=findings), meant, notes)
     if named.blamed is None and (part := divided_by_a_part(truth, verdict.findings)) is not None:
