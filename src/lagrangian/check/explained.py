@@ -22,6 +22,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Status, Verdict
 from lagrangian.page.formula import Text, text
 
+OF_ANOTHER_EQUATION = ("force_wrong_equation", "input_everywhere", "counted_without_work")
+"""Mistakes that a force between two bodies seems to be in the balance of one: it does no work in a Ξ."""
+
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict, with the mistakes that explain the answer, unless its hint level tells none."""
@@ -34,7 +37,8 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     named = mistakes(truth, spelling.lines, judged.findings)
     open_ones = open_equations(verdict.findings) if not named.told or named.left or not named.sure else []
     unexplained = open_ones if not named.sure else [f for f in open_ones if any(f.line is x for x in named.left)]
-    several = len(named.told) > 1 and without_lagrange(spelling.lines)
+    elsewhere = any(m.name in OF_ANOTHER_EQUATION for m in named.told)
+    several = len(named.told) > 1 and elsewhere and without_lagrange(spelling.lines)
     compared = open_equations(verdict.findings) if several else unexplained or open_ones
     findings, meant = as_combinations(truth, verdict.findings, compared, half=several)
     if meant:

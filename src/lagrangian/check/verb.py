@@ -388,7 +388,7 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     for energies without a value in lines that are judged by another side, p = ∂L/∂x' = m x'."""
     why = ("nothing else uses ", "no equation uses this matrix ", "it is an expression without an equals sign")
     why = (*why, "it is a list without an equals sign", "an energy in it has no value", "it is a general form")
-    why = (*why, "nothing says what is differentiated there")
+    why = (*why, "nothing says what is differentiated there", "it is of virtual displacements")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
