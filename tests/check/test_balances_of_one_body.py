@@ -69,6 +69,13 @@ def test_a_balance_with_another_mistake_lacks_no_reaction() -> None:
     assert "H is missing" not in page
 
 
+def test_a_balance_of_one_body_is_not_compared_with_the_equation_of_all() -> None:
+    rows = LACKING.split("\n", 1)[1].replace("M x'' = -k x", "M x'' = -2 k x").rsplit("\n", 1)[0]
+    page = told(trolley(), rows)
+    assert "Line 2, the balance of particle 'trolley', does not hold." in page
+    assert "does not belong" not in page and "comes from" not in page
+
+
 def test_a_mass_that_is_counted_twice_does_not_belong() -> None:
     wrong = RODS.replace("trolley: M x''", "trolley: (M + n) x''").replace("\nM x''", "\n(M + n) x''")
     assert "the term n ẍ does not belong there" in told(trolley(), wrong)
@@ -165,3 +172,23 @@ def test_a_moment_of_an_acceleration_that_has_a_name() -> None:
     )
     assert "the term −m e ax is missing" in told(rotor(), wrong)
     assert "ax is missing" not in told(rotor(), answer.replace("C + (M + m)*e^2 +", "C + M*e^2 +"))
+
+
+def test_what_is_advised_fits_the_term() -> None:
+    answer = COMPONENTS + TILT.format(" + B - A")
+    for right, wrong, advice in (
+        ("m*a*e*theta''*sin(theta) +", "2*m*a*e*theta''*sin(theta) +", "Such a factor couples two coordinates"),
+        ("(B + m*a^2)*theta''", "2*(B + m*a^2)*theta''", "What stands before an acceleration is a mass"),
+        (
+            "psi'^2*sin(theta)*cos(theta) = tau",
+            "psi'^2*sin(theta)*cos(theta)/2 = tau",
+            "The square of one rate comes from",
+        ),
+    ):
+        assert right in answer
+        assert advice in told(rotor(), answer.replace(right, wrong))
+
+
+def test_an_energy_that_lacks_a_term_is_a_part() -> None:
+    page = told(rotor(), f"T_rotor = M*e^2*psi'^2/2 + B/2*(theta'^2 + psi'^2*cos(theta)^2)\n{TILT.format(' + B')}")
+    assert "nor a part of it" not in page and "something is missing in it" in page

@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness, voted
+from lagrangian.check.explain.reaction_not_drawn import as_balances_of_bodies
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
@@ -131,6 +132,7 @@ def as_combinations(
 def with_sums_compared(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict with wrong equations of which no mistake speaks compared with the sum that they are: the balance of a
     cart with the force F between it and a slider is the equation of the cart less that of the slider."""
+    verdict = as_balances_of_bodies(truth, verdict)
     said = " ".join(str(m.what) for m in verdict.mistakes)
     left = [f for f in open_equations(verdict.findings) if re.search(rf"\b[Ll]ine {f.line.number}\b", said) is None]
     if not verdict.mistakes or not left or verdict.motion:

@@ -16,13 +16,23 @@ import sympy as sp
 from lagrangian.check.explain.balance_terms import arms
 from lagrangian.check.explain.combined_rows import WrongTerm, difference
 from lagrangian.check.explain.free_bodies import free_bodies
+from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.right_balances import marked
 from lagrangian.check.explain.solved_forces import balances_of, hold, place_of
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import text
 
+NAME = "balance_of_a_body"
+"""The name of a mistake that is somewhere in the balance of one body."""
+WHY = text(
+    "Draw a free-body diagram of this body alone: its own mass times its acceleration, and every force on it, also "
+    "those with which the other bodies act."
+)
+MOST_TOLD = 2
+"""With no more terms, a balance is told by these."""
 MOST_TIMES = 4
 """How often a force may act on the body that lacks it: once by each of so many equal bodies."""
 NEAR = 1e-8
@@ -57,6 +67,25 @@ def with_reaction(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verd
     holds = hold(on, [line, *rest], balances.forces, below)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     return replace(verdict, findings=marked(verdict.findings, (), [blamed], follow)), blamed
+
+
+def as_balances_of_bodies(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict on balances that nothing explains, without the terms in which one that words call that of a body, and
+    that has the accelerations of this body alone, differs from the equation of all."""
+    if verdict.mistakes or verdict.status is not Status.WRONG or verdict.hint == 0:
+        return verdict
+    if any(f.line.kind in ("T", "V", "L") for f in verdict.findings):
+        return verdict
+    findings, told = list(verdict.findings), list[Mistake]()
+    for k, f in enumerate(findings):
+        body = owner_of(f"{f.line.words} ", truth.model) if f.line.words and f.is_open else None
+        balance = f.line.kind == "equation" and len(f.differences) > MOST_TOLD
+        if body is None or not balance or not free_bodies(truth).is_of_some(f.line.expr):
+            continue
+        findings[k] = replace(f, differences=(), coordinate=None, elements=())
+        what = text(f"{f.line.opening}, the balance of {body.title}, does not hold.")
+        told.append(Mistake(NAME, what, WHY, 5, body.title, None, what))
+    return replace(verdict, findings=tuple(findings), mistakes=tuple(told), sure=True) if told else verdict
 
 
 def _missing(
