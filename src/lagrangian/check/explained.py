@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian.check.coordinates.tried import new_names
+from lagrangian.check.explain.advice import without_lagrange
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.combinations_meant import MeantCombination, as_combinations, open_equations
 from lagrangian.check.explain.definitions import with_wrong_definitions
@@ -21,6 +22,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Status, Verdict
 from lagrangian.page.formula import Text, text
 
+OF_ANOTHER_EQUATION = ("force_wrong_equation", "input_everywhere", "counted_without_work")
+"""Mistakes that a force between two bodies seems to be in the balance of one: it does no work in a Ξ."""
+
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict, with the mistakes that explain the answer, unless its hint level tells none."""
@@ -33,7 +37,10 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     named = mistakes(truth, spelling.lines, judged.findings)
     open_ones = open_equations(verdict.findings) if not named.told or named.left or not named.sure else []
     unexplained = open_ones if not named.sure else [f for f in open_ones if any(f.line is x for x in named.left)]
-    findings, meant = as_combinations(truth, verdict.findings, unexplained or open_ones)
+    elsewhere = any(m.name in OF_ANOTHER_EQUATION for m in named.told)
+    several = len(named.told) > 1 and elsewhere and without_lagrange(spelling.lines)
+    compared = open_equations(verdict.findings) if several else unexplained or open_ones
+    findings, meant = as_combinations(truth, verdict.findings, compared, half=several)
     if meant:
         return _with_combinations(truth, spelling, replace(verdict, findings=findings), meant, notes)
     if named.blamed is None and (part := divided_by_a_part(truth, verdict.findings)) is not None:

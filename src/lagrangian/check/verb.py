@@ -21,6 +21,7 @@ from lagrangian.check.counted import judged_as_counted
 from lagrangian.check.explain.balances_apart import with_balances_apart
 from lagrangian.check.explain.bare_forms import without_bare_forms
 from lagrangian.check.explain.claims_checked import with_claims_checked
+from lagrangian.check.explain.combinations_meant import with_sums_compared
 from lagrangian.check.explain.cut_forces import with_wrong_cut_force
 from lagrangian.check.explain.deflections_written import with_written_deflections
 from lagrangian.check.explain.denominators_said import with_denominators_named
@@ -221,8 +222,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
     told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
-    verdict = _apart(derivation, answer, fitting(told))
-    return _told(verdict, answer, decides.notes)
+    return _told(_apart(derivation, answer, fitting(told)), answer, decides.notes)
 
 
 def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:
@@ -247,8 +247,8 @@ def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], h
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    checked = with_claims_checked(with_written_deflections(with_lengths_added(truth, verdict)))
-    checked = with_denominators_named(truth, checked)
+    verdict = with_lengths_added(truth, with_sums_compared(truth, verdict))
+    checked = with_denominators_named(truth, with_claims_checked(with_written_deflections(verdict)))
     return without_bare_forms(truth, with_uncovered_terms(truth, checked))
 
 
@@ -388,7 +388,7 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     for energies without a value in lines that are judged by another side, p = ∂L/∂x' = m x'."""
     why = ("nothing else uses ", "no equation uses this matrix ", "it is an expression without an equals sign")
     why = (*why, "it is a list without an equals sign", "an energy in it has no value", "it is a general form")
-    why = (*why, "nothing says what is differentiated there")
+    why = (*why, "nothing says what is differentiated there", "it is of virtual displacements")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}

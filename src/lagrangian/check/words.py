@@ -48,7 +48,7 @@ def report(verdict: Verdict, model: Model) -> Report:
     parts = [Part(text("Is it right?"), tuple(_summary(verdict, model)))]
     if verdict.hint >= 1 and verdict.findings:
         parts.append(Part(text("Line by line"), (_lines(verdict, model),)))
-    if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
+    if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict) or verdict.open_findings):
         parts.append(Part(text("What went wrong"), tuple(_why(verdict, model))))
     if verdict.hint >= 3 and (found := tuple(_terms(verdict, model))):
         parts.append(Part(text("Term by term"), found))

@@ -44,6 +44,11 @@ OF_TWO_RATES = text(
     "Such a term comes from d/dt of a product, as of s² θ̇: the derivative of the square is 2 s ṡ. In a balance of "
     "forces or moments it is the Coriolis acceleration, with the same factor 2."
 )
+OF_SQUARED_RATE = text(
+    "The square of one rate comes from ∂T*/∂ξ of a factor that depends on a position, with the ½ of T*, or from d/dt "
+    "of a rate times such a factor. In a balance of forces or moments it is the centripetal acceleration, ω² times "
+    "the distance."
+)
 OF_A_SQUARE = text("The derivative of a square is twice what is squared: of c ξ̇² it is 2 c ξ̇.")
 OF_TWICE = text(
     "Is a factor 2 counted twice? A square brings it once when it is differentiated, and the sine of a double angle "
@@ -52,6 +57,10 @@ OF_TWICE = text(
 OF_INERTIA = text(
     "What stands before an acceleration is a mass or a moment of inertia: m a² for a mass at the distance a from the "
     "axis, and for a body that turns also J about its centre of mass."
+)
+OF_COUPLING = text(
+    "Such a factor couples two coordinates: a mass times how far each of them moves it, as far as both move it in the "
+    "same direction, and a moment of inertia where both turn the body."
 )
 OF_MOVED = text("Every body that this coordinate moves counts here: its mass, and if it turns its moment of inertia.")
 OF_MOTION = text(
@@ -256,8 +265,8 @@ def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:
     if any(x in mistake.name for x in NUMBERS):
         more = any(x in str(mistake.what) for x in (" too much", " twice"))
         if accelerated or not moving or more:
-            return OF_INERTIA if accelerated else OF_TWICE if moving else TERM_BY_TERM
-        return OF_TWO_RATES if _degree(formulas[0]) > 1 else OF_A_SQUARE
+            return _of_accelerated(mistake, formulas[0]) if accelerated else OF_TWICE if moving else TERM_BY_TERM
+        return _of_rates(formulas[0])
     if any(x in mistake.name for x in MISSING):
         if not moving:
             return OF_PLACES
@@ -267,10 +276,26 @@ def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:
     return TERM_BY_TERM
 
 
-def _degree(term: sp.Expr) -> int:
-    """How many rates a term has as factors."""
-    powers = (f.as_base_exp() for f in sp.Mul.make_args(term))
-    return sum(int(n) if n.is_Integer else 1 for x, n in powers if x.atoms(sp.Derivative))
+def _of_accelerated(mistake: Mistake, term: sp.Expr) -> Text:
+    """What is advised for what stands before an acceleration: that of the equation's own coordinate, of which it is a
+    mass or a moment of inertia, or that of another one."""
+    moving = {d.args[0] for d in term.atoms(sp.Derivative) if isinstance(d, sp.Derivative) and d.derivative_count > 1}
+    if mistake.coordinate is None:
+        return OF_COUPLING if term.has(sp.sin, sp.cos) else OF_INERTIA
+    return OF_INERTIA if any(str(getattr(x, "func", x)) == mistake.coordinate for x in moving) else OF_COUPLING
+
+
+def _of_rates(term: sp.Expr) -> Text:
+    """What is advised for the number of a term with a rate, by whether it has two different ones or a square."""
+    if isinstance(term, sp.Add):
+        return TERM_BY_TERM
+    powers = [f.as_base_exp() for f in sp.Mul.make_args(term)]
+    rates = [(x, int(n) if n.is_Integer else 1) for x, n in powers if x.atoms(sp.Derivative)]
+    if sum(n for _, n in rates) < 2:
+        return OF_A_SQUARE
+    if len(rates) > 1:
+        return OF_TWO_RATES
+    return OF_SQUARED_RATE if rates[0][0].is_Derivative else TERM_BY_TERM
 
 
 def _is_between(truth: Reference, mistake: Mistake) -> bool:

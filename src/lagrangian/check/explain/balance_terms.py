@@ -95,7 +95,8 @@ def mends(
         Mend(_cost(truth, w), w) for _, w in in_factors(truth, shaped[0], across) if not _is_of_centre(truth, expr, w)
     ]
     listed += _other_inertias(truth, expr, found[0], values)
-    listed += _missing(truth, expr, found[0], values, forces, laws)
+    lacking = _missing(truth, expr, found[0], values, forces, laws)
+    listed += [replace(m, term=WrongTerm(-m.term.term, sp.S.Zero)) if -m.term.term in own else m for m in lacking]
     listed = [replace(m, cost=m.cost + OF_LAW) if _is_law(m.term, laws.here) else m for m in listed]
     return sorted(listed, key=lambda x: x.cost)
 
@@ -204,8 +205,8 @@ def _missing(
     masses = {p.symbol for p in truth.model.parameters if is_mass(truth, p.symbol)} & laws.letters
     bases = [(cost + CUT * (_moves(truth, x) and bool(bounded.letters(x) & masses)), x) for cost, x in bases]
     bases += [(MISSING, x) for x in laws.elsewhere]
-    arms = list(_arms(truth, expr))
-    exprs = [x for _, x in (*bases, *arms)]
+    levers = list(arms(truth, expr))
+    exprs = [x for _, x in (*bases, *levers)]
     found = CompiledExpressions(exprs).at(truth.states, values)
     if not np.isfinite(found[: len(bases)]).all():
         return
@@ -215,7 +216,7 @@ def _missing(
         size = np.abs(wrong).max()
         for sign in (1, -1):
             for j in np.flatnonzero(np.abs(wrong - sign * products).max(axis=1) <= NEAR * size):
-                yield Mend(cost + arms[j][0], WrongTerm(-sign * base * arms[j][1], sp.oo))
+                yield Mend(cost + levers[j][0], WrongTerm(-sign * base * levers[j][1], sp.oo))
 
 
 def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Iterator[tuple[float, sp.Expr]]:
@@ -265,7 +266,7 @@ def _efforts(truth: Reference) -> Iterator[tuple[set[sp.Basic], sp.Expr]]:
             yield bounded.letters(truth.expand(e.b)), truth.expand(e.b * e.rate(model))
 
 
-def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
+def arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
     """What a force may be multiplied by: nothing, an arm, a ratio, the sine or cosine of an angle, two of these."""
     model = truth.model
     lengths = [p.symbol for p in model.parameters if p.symbol not in truth.values][:MOST_LETTERS]

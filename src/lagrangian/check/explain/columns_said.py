@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -18,6 +19,7 @@ from lagrangian.check.explain.other_points import is_of_another_point
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
 from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told
 from lagrangian.check.explain.sense_counted import turned_to
+from lagrangian.check.explain.turned_axes import velocities_along_axes
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
@@ -77,11 +79,33 @@ def said_of_column(truth: Reference, column: Column, senses: Senses) -> Iterator
     elsewhere = any(_is(truth, q, right, own) for q, right, own in every)
     elsewhere = elsewhere or is_of_another_point(truth, column[0], said)
     s = quantities_of(truth).of
-    for q, right, own in every:
+    for q, right, own in _nearest(truth, said, every):
         effect = put(truth, _effect(s, q.owner, q.kind, own))
         if effect.T == 0 and effect.V == 0:
             continue
         yield SaidWrongly(column[0], effect, partial(_in_words, s, q, right, said), elsewhere)
+
+
+def _nearest(
+    truth: Reference, said: Sequence[sp.Expr], every: Sequence[tuple[Sayable, list[sp.Expr], list[sp.Expr]]]
+) -> Iterator[tuple[Sayable, list[sp.Expr], list[sp.Expr]]]:
+    """What a column may mean, a velocity of every body along the axes along which the fewest of its terms are wrong."""
+    s = quantities_of(truth).of
+    for q, right, own in every:
+        if q.kind == "velocity":
+            turned = [
+                (replace(q, words=(*q.words, " along the axes", *words)), found, list(said))
+                for words, found in velocities_along_axes(s, q.owner)
+            ]
+            yield min([(q, right, own), *turned], key=lambda x: _differing(x[1], said))
+        else:
+            yield q, right, own
+
+
+def _differing(right: Sequence[sp.Expr], said: Sequence[sp.Expr]) -> int:
+    """How many terms are in one column and not in the other."""
+    pairs = [[Counter(sp.Add.make_args(bounded.expand(x))) for x in pair] for pair in zip(right, said, strict=True)]
+    return sum(((own - other) + (other - own)).total() for own, other in pairs)
 
 
 def _in_words(s: Ingredients, q: Sayable, right: Sequence[sp.Expr], said: Sequence[sp.Expr]) -> InWords:
@@ -112,11 +136,18 @@ def _meanings(
         if not any(s.moves(x) or x.has(*s.v) for x in values):
             continue
         signs = [turned_to(truth, x, y) for x, y in zip(values, said, strict=True)]
+        signs = [_shared(truth, *x) for x in zip(signs, values, said, strict=True)] if moving else signs
         signs = signs if moving else [senses.get(axis, sign) for axis, sign in enumerate(signs)]
         kind, words = ("velocity", "velocity") if moving else ("place", "position")
         right = [sign * x for sign, x in zip(signs, values, strict=True)]
         own = [sign * x for sign, x in zip(signs, said, strict=True)]
         yield Sayable(kind, b, (f"{words} of {b.title}",), sp.S.Zero, lambda _: Effect()), right, own
+
+
+def _shared(truth: Reference, sign: int, right: sp.Expr, said: sp.Expr) -> int:
+    """The sense in which a component is counted: the opposite one only if a term of it is written so."""
+    own, other = (set(sp.Add.make_args(bounded.expand(truth.put(x)))) for x in (-right, said))
+    return sign if sign > 0 or own & other else 1
 
 
 def _effect(s: Ingredients, b: Any, kind: str, own: Sequence[sp.Expr]) -> Effect:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -12,9 +13,10 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness, voted
+from lagrangian.check.explain.reaction_not_drawn import as_balances_of_bodies
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import Finding, Mistake, TermDifference
+from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import text
 from lagrangian.records import dataclass
 
@@ -42,12 +44,14 @@ class MeantCombination:
 
 
 def meant_combinations(
-    truth: Reference, findings: Sequence[Finding], left: Sequence[int]
+    truth: Reference, findings: Sequence[Finding], left: Sequence[int], *, half: bool = False
 ) -> dict[int, MeantCombination]:
     """The wrong equations that differ in one or two terms from a sum or a difference of two right ones, and in more
     than twice as many from any of these, by the places of their findings.
 
     ``left`` are the places of those that no mistake explains. Another line must be the equation of one of the two.
+    ``half`` as many, and of two, are few enough where only the comparison is chosen, and in balances of bodies of
+    which more than one thing would have to be wrong: a force between two of them stands in both.
     """
     if truth.derivation.multipliers or not 1 < truth.n <= MOST_COORDINATES:
         return {}
@@ -55,7 +59,7 @@ def meant_combinations(
     found: dict[int, MeantCombination] = {}
     for k in left:
         f = findings[k]
-        if len(f.differences) < FEWEST or terms(f.line.expr) > MOST_TERMS:
+        if len(f.differences) < FEWEST - half or terms(f.line.expr) > MOST_TERMS:
             continue
         beside = {x.coordinate for m, x in enumerate(findings) if x.line.kind == "equation" and m != k}
         tried = [
@@ -64,7 +68,7 @@ def meant_combinations(
             if {names[i], names[j]} & beside and (meant := _compared(truth, f, i, j, sign))
         ]
         best = min(tried, key=lambda x: len(x[0]), default=None)
-        if best is None or len(best[0]) > MOST_TOLD or 2 * len(best[0]) >= len(f.differences):
+        if best is None or len(best[0]) > MOST_TOLD or 2 * len(best[0]) >= len(f.differences) + half:
             continue
         meant, i, j, sign = best
         q = truth.derivation.coordinates
@@ -117,12 +121,23 @@ def _as_one(expr: sp.Expr, told: tuple[TermDifference, ...]) -> tuple[TermDiffer
 
 
 def as_combinations(
-    truth: Reference, findings: Sequence[Finding], left: Sequence[Finding]
+    truth: Reference, findings: Sequence[Finding], left: Sequence[Finding], *, half: bool = False
 ) -> tuple[tuple[Finding, ...], list[MeantCombination]]:
     """The findings, with those ``left`` open that are meant so in place of them."""
     places = [k for k, f in enumerate(findings) if any(f is x for x in left)]
-    found = meant_combinations(truth, findings, places)
+    found = meant_combinations(truth, findings, places, half=half)
     return tuple(found[k].finding if k in found else f for k, f in enumerate(findings)), list(found.values())
+
+
+def with_sums_compared(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict with wrong equations of which no mistake speaks compared with the sum that they are: the balance of a
+    cart with the force F between it and a slider is the equation of the cart less that of the slider."""
+    verdict = as_balances_of_bodies(truth, verdict)
+    said = " ".join(str(m.what) for m in verdict.mistakes)
+    left = [f for f in open_equations(verdict.findings) if re.search(rf"\b[Ll]ine {f.line.number}\b", said) is None]
+    if not verdict.mistakes or not left or verdict.motion:
+        return verdict
+    return replace(verdict, findings=as_combinations(truth, verdict.findings, left, half=True)[0])
 
 
 def open_equations(findings: Sequence[Finding]) -> list[Finding]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import combinations
+from typing import cast
 
 import numpy as np
 import sympy as sp
@@ -51,9 +52,26 @@ def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[in
             if body is None or not _is_meant(truth, body, value, kind):
                 continue
             if not _is_sum(truth, *_in_pieces(truth, body, value, kind)):
-                note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
+                note = text(f"it is not the {kind} energy of {body.title}: something is missing in it")
+                if not _is_short(truth, body, value, kind):
+                    note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
                 found[k] = Finding(lines[k], Status.WRONG, note)
     return found
+
+
+def _is_short(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
+    """Whether a value has what its mass and each of its moments of inertia adds to the kinetic energy of a body, but
+    for some of these."""
+    if kind != "kinetic":
+        return False
+    s = ingredients_of(truth.derivation)
+    whole = truth.put(s.kinetic(body))
+    inertia = getattr(body, "inertia", sp.zeros(0, 0))
+    letters = set[sp.Basic]().union(*(truth.put(s.expand(x)).free_symbols for x in (body.mass, *inertia)))
+    parts = [cast("sp.Expr", p * bounded.diff(value, p)) for p in sorted(letters, key=str)]
+    wholes = [cast("sp.Expr", p * bounded.diff(whole, p)) for p in sorted(letters, key=str)]
+    right = (zero_everywhere(truth, x) or zero_everywhere(truth, x - y) for x, y in zip(parts, wholes, strict=True))
+    return all(right) and zero_everywhere(truth, value - sp.Add(*parts))
 
 
 def _in_pieces(truth: Reference, body: Body, value: sp.Expr, kind: str) -> tuple[list[sp.Expr], list[list[sp.Expr]]]:

@@ -10,6 +10,7 @@ forces with names of its own.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import cast
 
@@ -21,7 +22,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.derive.reasons.loads import PassedOn, applied_loads, on_body
 from lagrangian.derive.reasons.motion import Moving, moving
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
-from lagrangian.model import Element, Gravity
+from lagrangian.model import Element, Gravity, time
 from lagrangian.records import dataclass
 
 MOST_PARTS = 7
@@ -37,7 +38,8 @@ class Balance:
     """The inertia of some bodies along a direction or about a point, and the known forces on them, at every state.
 
     ``slopes`` are those of the inertia with every acceleration, one state after another. Of forces that are ``shared``,
-    known by a deflection alone, it is not known on which of more bodies they act.
+    known by a deflection alone, it is not known on which of more bodies they act. ``turned`` is the inertia without
+    accelerations, of which ``inertias`` are the summands.
     """
 
     moment: bool
@@ -46,6 +48,13 @@ class Balance:
     loads: Mapping[Element, Array]
     formulas: tuple[Mapping[Element, sp.Expr], ...] = ()
     shared: frozenset[Element] = frozenset()
+    turned: Array | None = None
+    inertias: tuple[sp.Expr, ...] = ()
+
+    def of_rates(self, accelerations: Sequence[sp.Expr]) -> sp.Expr:
+        """What of the inertia has no acceleration: centripetal, Coriolis and gyroscopic terms."""
+        still = dict.fromkeys(accelerations, sp.S.Zero)
+        return cast("sp.Expr", sp.Add(*(cast("sp.Expr", bounded.replaced(x, still)) for x in self.inertias)))
 
     def formula(self, element: Element) -> sp.Expr:
         """What a force adds to the balance."""
@@ -93,6 +102,9 @@ class FreeBodies:
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
         self.accelerations = [c.acceleration for c in truth.model.coordinates]
+        model = truth.model
+        given = (*model.parameters, *model.inputs, *model.definitions, *model.coordinates)
+        self.known = {time, *(x.symbol for x in given)}
         self.balances: list[Balance]
         try:
             self.balances = list(_Balancing(truth).all())
@@ -111,6 +123,39 @@ class FreeBodies:
             return []
         found = (_match(b, values) for b in self.balances if proportional(b.slopes, slopes))
         return [m for m in found if m is not None]
+
+    def without_rates(self, line: sp.Expr, known: Mapping[sp.Basic, Array]) -> tuple[Balance, Array] | None:
+        """The one balance, and its multiple, of which a line has the accelerations and the forces that it has of it
+        rightly, and none of the terms with products of rates; None if there is none."""
+        if not line.has(*self.accelerations):
+            return None
+        states = self.truth.states
+        compiled = CompiledExpressions([line])
+        values, slopes = compiled.at(states, known)[0], compiled.slopes(self.accelerations).at(states, known)
+        if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
+            return None
+        for b in self.balances:
+            turned = b.turned
+            if turned is None or np.abs(turned).max() <= NEAR or not proportional(b.slopes, slopes):
+                continue
+            bare = replace(b, inertia=b.inertia - turned)
+            found = _match(bare, values)
+            if found is not None and not found.wrong:
+                return b, found.scale
+        return None
+
+    def is_of_some(self, line: sp.Expr) -> bool:
+        """Whether a line has the accelerations of some bodies, and not those of an equation of motion: it is the
+        balance of these, and lacks what only the others have."""
+        if not line.has(*self.accelerations):
+            return False
+        states = self.truth.states
+        known = {x: np.zeros(states.size) for x in bounded.letters(line) if x not in self.known}
+        rows = CompiledExpressions([line, *self.truth.rows]).slopes(self.accelerations).at(states, known)
+        own, *whole = rows.reshape(len(self.truth.rows) + 1, len(self.accelerations), -1)
+        if not np.isfinite(rows).all() or any(proportional(own, x) for x in whole):
+            return False
+        return any(proportional(b.slopes, own) for b in self.balances)
 
 
 def free_bodies(truth: Reference) -> FreeBodies:
@@ -223,6 +268,10 @@ class _Balancing:
         own = [p for p in self.parts if not p.turning]
         for axis in self._axes(own):
             yield from self._sums([_Term(False, *_dot(p, axis)) for p in own], {})
+        for p in self.parts:
+            if p.turning and len(p.rate) > 1:  # Euler's equations, along the axes of the body
+                for k, rate in enumerate(p.rate):
+                    yield from self._sums([_Term(True, rate, {e: x[k] for e, x in p.loads.items()})], {})
 
     def _axes(self, parts: Sequence[_Part]) -> Iterator[tuple[sp.Expr, ...]]:
         """The fixed axes, and in the plane the directions in which coordinates move the parts, and across these."""
@@ -259,6 +308,7 @@ class _Balancing:
         elements = list(dict.fromkeys([*(e for t in terms for e in t.loads), *passed]))
         inertias = CompiledExpressions([t.inertia for t in terms])
         inertia = inertias.at(states)
+        turned = inertias.at(states, dict.fromkeys(self.accelerations, np.zeros(states.size)))
         slopes = inertias.slopes(self.accelerations).at(states).reshape(len(terms), n, -1)
         zero = sp.S.Zero
         exprs = [*(t.loads.get(e, zero) for t in terms for e in elements), *(passed.get(e, zero) for e in elements)]
@@ -274,7 +324,9 @@ class _Balancing:
                 if np.abs(whole).max() > NEAR:
                     moment, formulas = any(terms[i].moment for i in group), tuple(terms[i].loads for i in group)
                     shared = frozenset(passed if size < len(terms) else ())
-                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, (*formulas, passed), shared)
+                    exprs, still = tuple(terms[i].inertia for i in group), turned[group].sum(axis=0)
+                    own = (*formulas, passed)
+                    yield Balance(moment, inertia[group].sum(axis=0), whole, acting, own, shared, still, exprs)
 
 
 @dataclass(frozen=True, eq=False)

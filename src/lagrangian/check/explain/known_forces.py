@@ -31,6 +31,10 @@ MOST_LETTERS = 12
 MOST_LAWS = 6
 """The most springs and dampers of which a name may be the force."""
 WHY = text("A spring's force is its stiffness times its own deflection, a damper's its constant times the rate of it.")
+WHY_RATES = text(
+    "Not only second derivatives accelerate a body: what goes in a circle has a centripetal acceleration, and a body "
+    "that turns about several axes has the terms with products of rates of Euler's equations."
+)
 LONGEST_MOMENT = 12
 """The most operations of a moment that is written out."""
 NEAR = 1e-8
@@ -45,7 +49,7 @@ class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
     element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
     is written. It is ``tentative`` where a force may be in one of the answer's own, ``shared`` where other bodies may
-    have the rest of it."""
+    have the rest of it; ``why`` is what is advised, if it is no force."""
 
     right: bool
     moment: bool
@@ -56,6 +60,7 @@ class KnownPart:
     term: WrongTerm | None = None
     tentative: bool = False
     shared: bool = False
+    why: Text | None = None
 
     def may_lack(self, truth: Reference, term: sp.Expr) -> bool:
         """Whether a line with right known forces may still lack a term: one of an element that is not known to act."""
@@ -76,7 +81,26 @@ def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequenc
             matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
     own = {i: bool(forces) and lines[i].expr.has(*forces) for i in matches}
-    return {i: _part(truth, factors, lines[i], m, explicit, own=own[i]) for i, m in matches.items()}
+    told = {i: _part(truth, factors, lines[i], m, explicit, own=own[i]) for i, m in matches.items()}
+    others = {i: _without_rates(truth, x, none) for i, x in enumerate(lines) if i not in matches}
+    return told | {i: part for i, part in others.items() if part is not None}
+
+
+def _without_rates(truth: Reference, line: AnsweredLine, none: Mapping[sp.Basic, Array]) -> KnownPart | None:
+    """What is known of a line that has the accelerations of some bodies and no term with products of rates: −N = B ω₂′
+    for −N = B ω₂′ − (B − A) ω₃ ω₁."""
+    bodies = free_bodies(truth)
+    if (found := bodies.without_rates(line.expr, none)) is None:
+        return None
+    balance, scale = found
+    factor = plain_scale(truth, scale)
+    if factor is None or balance.turned is None:
+        return None
+    whole = bounded.expand(factor * balance.of_rates(bodies.accelerations))
+    lacking = bounded.factored(whole) or whole
+    what = text(f"In {line.title}, the term ", lacking, " is missing.")
+    excess = -CompiledExpressions([factor]).at(truth.states)[0] * balance.turned
+    return KnownPart(False, balance.moment, what, excess=excess, term=WrongTerm(lacking, sp.oo), why=WHY_RATES)
 
 
 def _part(

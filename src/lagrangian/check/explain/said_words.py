@@ -109,3 +109,11 @@ def _are_exchanged(apart: Sequence[str | Left]) -> bool:
 
 
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
+
+
+def of_terms(terms: Sequence[sp.Expr]) -> Text | None:
+    """What is advised for terms each of which may be twice the product of two parts of a sum, 2 m a b, and not the
+    square of one, m e²; None for others."""
+    powers = [x.as_powers_dict().items() for x in terms]
+    cross = all(sum(n == 1 and not x.is_number for x, n in own) > 1 for own in powers)
+    return WHY_TERM if cross else None

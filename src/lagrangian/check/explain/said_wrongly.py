@@ -27,7 +27,7 @@ from lagrangian.check.explain.quantities import (
 )
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
-from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, WHY_TERM, why_of
+from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, of_terms, why_of
 from lagrangian.check.explain.search import without_constant
 from lagrangian.check.explain.sense_counted import senses, value_of
 from lagrangian.check.explain.which_said import of_owner_said
@@ -131,7 +131,7 @@ class SaidWrongly:
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         squared = of.kind == "mass" or (str(of.words[0]).startswith("square") and self._has_sum)
         whole = squared and differ and all(letters_in(x) <= self.own_letters for x in differ)
-        return WHY_TERM if whole else why_of(of.kind, of.right, self.words.apart)
+        return (of_terms(differ) if whole else None) or why_of(of.kind, of.right, self.words.apart)
 
     @property
     def _has_sum(self) -> bool:

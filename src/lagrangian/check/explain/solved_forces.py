@@ -65,11 +65,12 @@ class Balances:
         return int(np.median(np.linalg.matrix_rank(self.A[:, rows]))) if rows else 0
 
 
-def balances_of(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | None:
-    """The lines of an answer with forces of its own; None if these are not linear, or too many or too few."""
+def balances_of(truth: Reference, lines: Sequence[AnsweredLine], *, few: bool = False) -> Balances | None:
+    """The lines of an answer with forces of its own; None if these are not linear, or too many or too few: as many
+    lines as forces give these, but are not compared with each other."""
     forces = sorted(unknown_in(truth, lines), key=str)
     rows = tuple(x for x in lines if x.kind == "equation" and x.expr.has(*forces)) if forces else ()
-    if not 0 < len(forces) <= MOST_FORCES or not len(forces) < len(rows) <= MOST_LINES:
+    if not 0 < len(forces) <= MOST_FORCES or not len(forces) < len(rows) + few <= MOST_LINES:
         return None
     slopes: list[sp.Expr] = []
     for x in rows:

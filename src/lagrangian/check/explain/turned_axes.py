@@ -27,6 +27,15 @@ def turned_velocities(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left
         yield words, x
 
 
+def velocities_along_axes(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], list[sp.Expr]]]:
+    """All components of a velocity along such axes, in their order, with what the axes are called."""
+    if bounded.operations(*s.velocity(b)) <= LONGEST:
+        for words, axes in islice(_axes(s, b), MOST_AXES):
+            found = [x for _, x in _along(s, axes, s.velocity(b))]
+            if len(found) == s.model.dimension:
+                yield words, found
+
+
 def turned_accelerations(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, list[sp.Expr]]]:
     """The components of an acceleration along such axes, r̈ − r φ̇² and r φ̈ + 2 ṙ φ̇, each with its axis."""
     yield from _turned(s, b, [s.rate(v) for v in s.velocity(b)])

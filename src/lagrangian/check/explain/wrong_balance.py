@@ -7,6 +7,7 @@ them, then this line is wrong, and the forces of the others tell which of its te
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias, cast
@@ -21,6 +22,7 @@ from lagrangian.check.explain.combined_rows import WrongTerm, difference, is_mas
 from lagrangian.check.explain.either_sign import sign_in_one_of_two
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, right_laws, weighs, with_wrong_law
 from lagrangian.check.explain.pieces_shared import wrong_share
+from lagrangian.check.explain.reaction_not_drawn import with_reaction
 from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
 from lagrangian.check.explain.solved import NAME as SOLVED
 from lagrangian.check.explain.solved_forces import (
@@ -49,6 +51,8 @@ NAME = "wrong_balance"
 """The name of the mistake."""
 MOST_TOLD = 3
 """The most lines of which one is said to be wrong."""
+MOST_VALUES = 2
+"""How often a force may be said: for each of two bodies between which it acts."""
 MOST_TERMS = 2
 """The most terms of an equation above that are told."""
 MOMENT = 0.4
@@ -82,7 +86,7 @@ def with_wrong_balance(
         return law
     on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
     if on is None or (balances := balances_of(on, lines)) is None:
-        return verdict
+        return _without_reaction(truth, lines, verdict) or verdict
     if len(balances.forces) <= len(truth.derivation.multipliers):
         return verdict  # multipliers
     balances, derived = without_derived(on, balances, lines)
@@ -115,12 +119,20 @@ def with_wrong_balance(
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
     findings = marked(verdict.findings, right, [blamed], follow)
-    mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
+    why = None if solved.known is None else solved.known.why
+    mistake = _mistake(blamed, WHY_SOLVED if k is None else why or WHY)
     if solved.term is None and solved.known is not None and solved.known.said is not None:
         title = None if solved.known.element is None else solved.known.element.title
         mistake = replace(mistake, what=solved.known.said, element=title)
     told = (*_above(findings, line), mistake)
     return replace(verdict, findings=findings, mistakes=told, alternatives=(), notes=notes, sure=True)
+
+
+def _without_reaction(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
+    """The verdict with the force that is missing in the balance of a body, and acts on another one; None if none is."""
+    if (found := with_reaction(truth, lines, verdict)) is None:
+        return None
+    return replace(found[0], mistakes=(_mistake(found[1], WHY),), alternatives=(), sure=True)
 
 
 def _above(findings: Sequence[Finding], line: AnsweredLine) -> list[Mistake]:
@@ -294,7 +306,8 @@ def with_forces_of_below(
     if definitions and any(m.name == SOLVED for m in verdict.mistakes):
         return verdict  # of a determinant: the lines that are divided by it are right as they are written
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
-    if not solved or len({x.name for x in solved}) < len({x.number for x in solved}):
+    names_of = Counter(x.name for x in solved)
+    if not solved or max(names_of.values()) > MOST_VALUES:
         return verdict
     numbers = frozenset(x.number for x in solved)
     names = {key(str(x.name)) for x in solved}

@@ -23,6 +23,7 @@ from lagrangian.check.explain.combined_rows import (
 )
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.determinant_said import with_determinant
+from lagrangian.check.explain.names_exchanged import with_names_exchanged
 from lagrangian.check.explain.one_term_beside import with_one_term_beside
 from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
@@ -43,7 +44,7 @@ def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     also in equations into which others were put. A definition from which all that is wrong follows goes first."""
     if (divided := with_determinant(truth, lines, verdict)) is not verdict:
         return divided
-    told = _with_terms(truth, lines, verdict)
+    told = with_names_exchanged(truth, lines, _with_terms(truth, lines, verdict))
     if told.hint and told.status is Status.WRONG and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
         return _with_definition(truth, lines, verdict) or told
     return with_one_term_beside(truth, lines, told)

@@ -16,7 +16,7 @@ from lagrangian.check.reading.line_forms import listed_names
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import has_matrix, start_of
-from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_slope
+from lagrangian.check.reading.placeholders import ENERGIES, displacements, is_placeholder, is_slope
 from lagrangian.quantities.source import Source
 
 _PARTS = "TVUEKPW"
@@ -96,4 +96,6 @@ def why_not_judged(value: sp.Expr) -> str | None:
         return None
     if any(x.func.__name__.startswith("\u27e8vector ") for x in held):
         return "it is a vector"
+    if {x for x in held if is_placeholder(x)} <= displacements(value).keys():
+        return "it is of virtual displacements"
     return "it is a general form" if any(is_slope(x) for x in held) else "an energy in it has no value"

@@ -14,7 +14,7 @@ from lagrangian.check.explain.changes import alike
 from lagrangian.check.explain.changes.change import Site, Words
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, add, minus, plus, scaled, times
 from lagrangian.check.explain.misconceptions.base import Ingredients
-from lagrangian.model import Element, time
+from lagrangian.model import Damper, Element, time
 from lagrangian.page.formula import Name, Partial, Total
 
 MOST_TERMS = 60
@@ -211,7 +211,8 @@ class Sites:
         resisting = [self.shares[e] for e in self.of.resisting if e in self.shares]
         if len(resisting) > 1:
             own = {i: plus(*[s[i] for s in resisting if i in s]) for i in range(self.n)}
-            words = ("what the dampers add to ", Name("Xi"))
+            dampers = all(isinstance(e, Damper) for e in self.of.resisting if e in self.shares)
+            words = (f"what {'the dampers' if dampers else 'all resistances'} add to ", Name("Xi"))
             yield Site(words=words, brief=words, step=6, Xi={i: x for i, x in own.items() if x}, surcharge=0.1)
         if len(self.shares) > 1:
             words = ("the work of all non-conservative forces",)
