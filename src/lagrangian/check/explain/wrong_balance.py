@@ -16,7 +16,6 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.explain.balance_terms import Laws, Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, is_mass, term_to_blame
 from lagrangian.check.explain.either_sign import sign_in_one_of_two
@@ -32,6 +31,7 @@ from lagrangian.check.explain.solved_forces import (
     is_true,
     left_out,
     place_of,
+    primes_as_names,
     without_derived,
 )
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
@@ -84,7 +84,7 @@ def with_wrong_balance(
         return verdict
     if (law := with_wrong_law(truth, lines, verdict)) is not None:
         return law
-    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    on, lines = held(truth) if truth.derivation.multipliers else truth, primes_as_names(truth, lines)
     if on is None or (balances := balances_of(on, lines)) is None:
         return _without_reaction(truth, lines, verdict) or verdict
     if len(balances.forces) <= len(truth.derivation.multipliers):
@@ -146,7 +146,7 @@ def _above(findings: Sequence[Finding], line: AnsweredLine) -> list[Mistake]:
 
 def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether there are forces of the answer's own with which all its balances hold along the right motion."""
-    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    on, lines = held(truth) if truth.derivation.multipliers else truth, primes_as_names(truth, lines)
     balances = None if on is None else balances_of(on, lines)
     return balances is not None and balances.solved(range(len(balances.lines))) is not None
 
@@ -359,22 +359,6 @@ def _has_own_mass(truth: Reference, line: AnsweredLine, lines: Sequence[Answered
     above = [x.names for x in lines if x.kind == "equation" and x.number < line.number and x.names & names]
     own = (p.symbol for p in truth.model.parameters if key(p.name) in line.names.difference(*above))
     return any(is_mass(truth, x) for x in own)
-
-
-def _primes_as_names(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
-    """The lines with S' beside S as a name, if the system has no S: a force is not differentiated."""
-    told = [x.expr for x in lines if x.kind == "equation"]
-    rates = set[sp.Basic]().union(*(e.atoms(sp.Derivative) for e in told))
-    own = unknown_in(truth, lines)
-    put = {
-        d: sp.Symbol(f"{d.args[0].func}'")
-        for d in rates
-        if isinstance(d, sp.Derivative) and d.derivative_count == 1 and d.args[0] in own
-    }
-    moving = {d.args[0] for d in rates if isinstance(d, sp.Derivative) and d.derivative_count > 1}
-    if not put or any(d.args[0] in moving for d in put):
-        return tuple(lines)
-    return tuple(replace(x, expr=bounded.replaced(x.expr, put)) for x in lines)
 
 
 def _read(forces: Sequence[sp.Basic]) -> Text:
