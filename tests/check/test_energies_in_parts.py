@@ -184,8 +184,6 @@ def test_a_name_with_a_number_is_not_the_first_entry_of_a_column(right: str, ope
 DRIVEN = "(A + B R^2/r^2) φ'' + c R^2/r^2 φ' + k φ = M R/r\n"
 OF_ROLLER = [
     "The roller turns with R φ'/r, so it has T = ½ B R² φ'²/r².",
-    "Reason for B R²/r²: no slip at the rim, hence T = ½ B (R/r)² φ'².",
-    "Begründung: die Rolle gleitet nicht, also T = ½ B R²/r² φ'².",
     "Note on the roller: T = ½ B R² φ'²/r².",
 ]
 

@@ -124,8 +124,9 @@ def _value_alone(truth: Reference, line: AnsweredLine) -> str | None:
     """Why a line is not judged that only gives a time or a constant a value, or an acceleration in a special case."""
     kind = gives_one_value(truth, line.expr, line.text)
     if kind == "motion":
+        none = line.expr.xreplace(dict.fromkeys(line.expr.atoms(sp.Derivative), sp.S.Zero)) == 0  # x'' = 0
         several = sum(x.startswith(AT) for x in line.near) > 1
-        return "it is about one motion" if several or (line.beside | line.near) & SPECIAL_MOTIONS else None
+        return "it is about one motion" if several or (none and (line.beside | line.near) & SPECIAL_MOTIONS) else None
     return None if kind is None else f"it is about one {kind}"
 
 

@@ -221,14 +221,16 @@ def _valued(
         return beside
     if not values:
         return verdict
-    sure = values if numbers or not names_values(truth, written) else {p: v for p, v in values.items() if v != 1}
+    sure = (
+        values if numbers or not names_values(truth, written) else {p: v for p, v in values.items() if v not in (0, 1)}
+    )
     if sure:
         put = _put(truth, lines, sure, hint, explain=explain and numbers)
         if put.right or numbers:
             return put
     if len(sure) < len(values) and _put(truth, lines, values, hint, explain=False).right:
-        ones = [x for p in sorted(values.keys() - sure.keys(), key=str) for x in (p, " = 1, ")]
-        note = text("It would be right with ", *ones[:-1], " = 1; a letter that is given must be written.")
+        given = [x for p in sorted(values.keys() - sure.keys(), key=str) for x in (p, f" = {values[p]}", ", ")][:-1]
+        note = text("It would be right with ", *given, "; a letter that is given must be written.")
         return replace(verdict, notes=(*verdict.notes, note))
     return verdict
 

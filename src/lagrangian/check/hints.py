@@ -18,7 +18,7 @@ class MistakeKind(StrEnum):
     """The kinds of mistakes."""
 
     MISSING = "missing"
-    EXTRA = "too much"
+    EXTRA = "extra"
     SIGN = "sign"
     FACTOR = "factor"
     POWER = "power"

@@ -27,11 +27,6 @@ MOST_PARTS, MOST_ADDED = 8, 3
 FEWEST_WORDS = 2
 """The words that make a sentence."""
 _WORD = re.compile(r"[^\W\d_]{2,}")
-_ENERGY = re.compile(r".*energ|lagrang|.*potential")
-_REASON = re.compile(
-    r"reasons?|because|since|why|note|remark|explanation|begründung|weil|denn|warum|anmerkung|bemerkung|erklärung"
-    r"|parce|raison|remarque"
-)
 _WHOLE = re.compile(
     r"systems?|total|whole|sum|all|everything|entire|overall|altogether|together|gesamt\w*|ganze[nrs]?|insgesamt|summe"
     r"|zusammen|alle[srnm]?|tout|totale?|système|ensemble"
@@ -97,8 +92,8 @@ def without_first_parts(
 
 
 def _of_one_element(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[int, str]:
-    """The names of the elements whose energies are what lines call T or V in sentences of words that speak of these, or
-    that give a reason, beside right equations: the wheels roll, so T = ½ (I/r²) ẋ²."""
+    """The names of the elements whose energies are what lines call T or V in sentences of words that speak of these
+    alone, beside right equations: the wheels roll, so T = ½ (I/r²) ẋ²."""
     said = [x for x in lines if x.kind in ("T", "V") and len(_WORD.findall(x.words)) >= FEWEST_WORDS]
     if not said or truth.derivation.multipliers:
         return {}
@@ -112,13 +107,14 @@ def _of_one_element(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[int
     if not all(map(any, right)) or not all(map(any, zip(*right, strict=True))) or not rows:
         return {}
     found: dict[int, str] = {}
+    own_words = {e.name: {x.lower() for x in _WORD.findall(e.name)} for e in truth.model.elements}
     for line in said:
         words = {x.lower() for x in _WORD.findall(line.words)}
         for e in truth.model.elements:
             own = truth.expand(e.kinetic(truth.model) if line.kind == "T" else e.potential(truth.model))
-            named = bool(words & {x.lower() for x in _WORD.findall(e.name)})
-            sure = named or (any(map(_REASON.fullmatch, words)) and not any(map(_ENERGY.match, words)))
-            if own == 0 or not sure or any(map(_WHOLE.fullmatch, words)):
+            named = bool(words & own_words[e.name])
+            others = set[str]().union(*(x for name, x in own_words.items() if name != e.name)) - own_words[e.name]
+            if own == 0 or not named or words & others or any(map(_WHOLE.fullmatch, words)):
                 continue
             if zero_everywhere(truth, own - (truth.T if line.kind == "T" else truth.V)):
                 continue  # the only one

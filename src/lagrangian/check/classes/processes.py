@@ -15,10 +15,10 @@ import subprocess
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from lagrangian.check.classes.judge import Judge, Judging, Record, untold
+from lagrangian.check.classes.judge import Judging, Record, untold
 from lagrangian.errors import Error, ModelError
 
 PER_PROCESS = 25
@@ -52,23 +52,20 @@ def process_count(wanted: int | None, answers: int) -> int:
 
 
 def judged_by_processes(
-    model: str, judging: Judging, tasks: Sequence[Task], count: int, judge: Callable[[], Judge]
+    model: str, judging: Judging, tasks: Sequence[Task], count: int
 ) -> Iterator[tuple[int, Record, bool]]:
     """Yield index, record and whether it is final for every task, in the order in which they are done.
 
     ``model`` is the text of the model file. A record is not final if the process was killed before it was made. Raises
-    `Error` if the model cannot be derived. ``judge`` makes what judges in this process until another one has begun,
-    which takes as long as dozens of answers.
+    `Error` if the model cannot be derived.
     """
     waiting = deque(tasks)
-    begun = threading.Event()
     done: queue.SimpleQueue[tuple[int, Record, bool] | Exception | None] = queue.SimpleQueue()
     opening = json.dumps({"model": model, "judging": judging.to_dict()})
-    teams = [_Team(opening, waiting.popleft(), waiting, done, begun) for _ in range(count)]
+    teams = [_Team(opening, waiting.popleft(), waiting, done) for _ in range(count)]
     try:
         for team in teams:
             team.start()
-        yield from _judged_meanwhile(judge, waiting, begun)
         left = count
         while left:
             item = done.get()
@@ -83,20 +80,6 @@ def judged_by_processes(
             team.stop()
 
 
-def _judged_meanwhile(
-    judge: Callable[[], Judge], waiting: deque[Task], begun: threading.Event
-) -> Iterator[tuple[int, Record, bool]]:
-    """The last tasks, until a process has begun or ended."""
-    here: Judge | None = None
-    while not begun.is_set():
-        try:
-            index, file, content = waiting.pop()
-        except IndexError:
-            return
-        here = here or judge()
-        yield index, here.judge(file, content), True
-
-
 class _Team(threading.Thread):
     """A thread that gives tasks to a process, one at a time, and starts another if it ends too early."""
 
@@ -106,10 +89,9 @@ class _Team(threading.Thread):
         first: Task,
         waiting: deque[Task],
         done: queue.SimpleQueue[tuple[int, Record, bool] | Exception | None],
-        begun: threading.Event,
     ) -> None:
         super().__init__(daemon=True, name="judging")
-        self._opening, self._first, self._waiting, self._done, self._begun = opening, first, waiting, done, begun
+        self._opening, self._first, self._waiting, self._done = opening, first, waiting, done
         self._process: subprocess.Popen[str] | None = None
         self._stopped = False
 
@@ -127,7 +109,6 @@ class _Team(threading.Thread):
         except Exception as error:  # told by the thread that waits
             self._done.put(error)
         finally:
-            self._begun.set()
             self.stop()
 
     def _do(self, task: Task) -> None:
@@ -160,7 +141,6 @@ class _Team(threading.Thread):
             raise Error(f"a process for judging {_ended(process)} before it began", fix="processes=1", code="E801")
         if "error" in answer:
             raise Error(answer["error"])
-        self._begun.set()
         return process
 
     def stop(self) -> None:

@@ -209,7 +209,7 @@ class _ClassRun:
             return
         count = process_count(self.processes, len(tasks))
         if count > 1 and (model := self._written()) is not None:
-            yield from judged_by_processes(model, self.judging, tasks, count, self._judge)
+            yield from judged_by_processes(model, self.judging, tasks, count)
             return
         judge = self._judge()
         for k, file, content in tasks:

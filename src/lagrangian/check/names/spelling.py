@@ -205,12 +205,14 @@ def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Sym
     """The values that a wrong answer has in place of letters, some of which it may keep, as k in 3 x″ + k x = F; none
     unless most of what it says fits with them, and less without, or if it is `in_numbers` anyway.
 
-    A letter whose value is 1 is among them only if it can not just have been forgotten: the answer then names none of
-    its dimension, and has values of others in numbers, beside those of g and of angles.
+    A letter whose value is 0 is never among them: it may have been forgotten. One whose value is 1 is among them only
+    if it can not just have been forgotten: the answer then names none of its dimension, and has values of others in
+    numbers, beside those of g and of angles.
     """
     judged = [x for x in lines if x.kind in ("T", "V", "L", "Xi", "equation")]
-    numbers = {abs(x) for line in judged for x in bounded.atoms(line.expr, sp.Rational)}
-    every = values_of(truth, judged)
+    parts = (x for line in judged for x in sp.Add.make_args(bounded.expand(line.expr)))
+    numbers = {abs(x.as_coeff_Mul()[0]) for x in parts}  # no exponents
+    every = {p: v for p, v in values_of(truth, judged).items() if v != 0}
     ones = {p: v for p, v in every.items() if v == 1}
     values = {p: v for p, v in every.items() if v != 1}
     if not values or numbers <= COMMON.difference(values.values()) or in_numbers(truth, lines):

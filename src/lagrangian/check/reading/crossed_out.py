@@ -68,14 +68,16 @@ _CORRECTS = re.compile(
     r"|(?:(?:a|small|one)[ ])?"
     r"(?:correction|corrected|corrigend[au]m?|erratum|edit|update|typo|korrektur|korrigiert|berichtigung)\b"
     rf"{_OF_LINE}(?=[ ]?[:,.!–-]|[ \t]*\n|[ ])"
-    r"|(?:(?:oh|ah|hmm+|oops|ups|whoops|sorry|pardon|wait|moment|halt|stop|no|nein|non|actually|i[ ]mean|i[ ]meant"
-    r"|i[ ]mixed|scratch[ ]that|my[ ]mistake|that[ ](?:is|was)[ ]wrong|that's[ ]wrong|mistake|falsch|fehler)\b"
-    r"(?:[ ]?[,.:;!–-]+[ ]?|[ ])){1,4})",
+    r"|(?:(?:oh|ah|hmm+|oops|ups|whoops|sorry|pardon|wait|halt|nein|non|actually|i[ ]mean|i[ ]meant"
+    r"|i[ ]mixed|scratch[ ]that|my[ ]mistake|that[ ](?:is|was)[ ]wrong|that's[ ]wrong|mistake|falsch|fehler"
+    r"|no(?=[ ]?[,!–-]))\b[ ]?[,.:;!–-]+[ ]?){1,4})",
     re.IGNORECASE | re.MULTILINE,
 )
 """The beginning of a line that states something anew."""
+_STARRED = re.compile(r"^[ \t]*+\*(?=[^\s*])", re.MULTILINE)
 _SIGN = re.compile(
-    r"[ \t&]*(?:(?::=|=|:)(?![=>])|[ ](?P<said>(?:should|must|has[ ]to|ought[ ]to)[ ](?:be|read)|muss|müsste)(?=[ ]))"
+    r"(?<![ \t&])[ \t&]*+(?:(?::=|=|:)(?![=>])"
+    r"|(?<=[ ])(?P<said>(?:should|must|has[ ]to|ought[ ]to)[ ](?:be|read)|muss|müsste)(?=[ ]))"
 )
 _APART = re.compile(r"[,;:.!?(][ \t]|[;:]|\A|\b(?:it[ ]is|so|then|therefore|because|with|und|also|dann)[ ]")
 _ENDS = re.compile(r";|\.(?=\s)|,(?=[ \t]+[^\s=,;:]{1,16}[ \t]*=)|\n|\Z")
@@ -105,7 +107,10 @@ def _stated_anew(text: str) -> tuple[list[Edit], list[Edit]]:
     """What corrections take back, and the words of these in front of what they state anew."""
     gone: list[Edit] = []
     fronts: list[Edit] = []
+    starred = len(_STARRED.findall(text)) > 1  # a list
     for match in islice(_CORRECTS.finditer(text), _MOST):
+        if starred and match.group().endswith("*"):
+            continue
         start, end = match.end(), _end(text, match.end())
         found = _anew(text, match, start, end) if text[start:end].strip(" \t:.,-") else None
         if found is None and text[start:end].rstrip()[-1:] in ("", ":", ".") and end + 1 < len(text):

@@ -25,8 +25,9 @@ _GLOSS = re.compile(
     re.MULTILINE,
 )
 _SLOPE = re.compile(
-    rf"^(?P<value>[ \t]*+[^\W\d]\w{{0,23}}+[ \t]*+(?::=|=)[^=\n]{{1,200}}?)"
-    rf"(?:[ \t]{{3,}}|[ ]?\t[ \t]*)\([ \t]*+=?[ \t]*+[d∂][ ]?{_NAME}[ ]?/[ ]?[d∂][ ]?{_NAME}[ \t]*+\)[ \t]*$",
+    rf"^(?P<value>[ \t]*+(?P<name>[^\W\d]\w{{0,23}}+)[ \t]*+(?::=|=)[^=\n]{{1,200}}?)"
+    rf"(?:[ \t]{{3,}}|[ ]?\t[ \t]*)\([ \t]*+=?[ \t]*+[d∂][ ]?(?P<of>{_NAME})[ ]?/[ ]?[d∂][ ]?(?P<by>{_NAME})"
+    r"[ \t]*+\)[ \t]*$",
     re.MULTILINE,
 )
 """A value of a name and, apart from it, the derivative that it is: r = …      (ds/dtheta)."""
@@ -60,7 +61,12 @@ def without_glosses_of_rates(text: TracedText, changes: Callable[[str], bool]) -
         rates = [any(changes(stem) for _, stem in spelled_rates(x)) or changes(x) for x in listed]
         return "" if all(rates) else match.group()
 
-    apart = text.sub(_SLOPE, lambda m: m.group() if m["value"].rstrip()[-1:] in "*/+-−·×^(" else m["value"])
+    def slope(match: re.Match[str]) -> str:
+        force = key(match["name"]).startswith(("Q", "Xi"))
+        said = changes(match["by"]) and match["by"] != match["of"] and not changes(match["name"]) and not force
+        return match["value"] if said and match["value"].rstrip()[-1:] not in "*/+-−·×^(" else match.group()
+
+    apart = text.sub(_SLOPE, slope)
     return apart.sub(_GLOSS, plain).sub(_DERIVATIVES, without_list)
 
 

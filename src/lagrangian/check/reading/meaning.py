@@ -27,7 +27,7 @@ from lagrangian.read.letters import key, undotted
 MAX_ENTRIES = 400
 """The largest number of entries of a matrix."""
 
-LARGEST_DETERMINANT = 4
+LARGEST_DETERMINANT = 3
 """The most rows of a matrix whose determinant is written out."""
 
 

@@ -18,7 +18,7 @@ from lagrangian.read.letters import key, undotted
 _CALLED = re.compile(
     r"\b(?:(?:effective|total|resulting|linear|small)[ ])?(?:stiffness|spring[ ](?:rate|constant)|(?:feder)?steifigkeit"
     r"|raideur|rigidité|(?:damping|lehr)[ ]?ratio|dämpfungs(?:grad|maß)|period|time[ ]constant|tension|torque|"
-    r"schwingungsdauer|length|radius|power|leistung|puissance)[ ]\$?(?P<name>[TVULKDRP])(?:\([^()=\n]{1,12}\))?"
+    r"schwingungsdauer|length|radius|power|leistung|puissance)[ ]\$?(?P<name>(?-i:[TVULKDRP]))(?:\([^()=\n]{1,12}\))?"
     r"(?=[ $]{0,2}=)",
     re.IGNORECASE,
 )

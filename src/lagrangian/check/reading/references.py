@@ -33,6 +33,8 @@ _MARKED = re.compile(
     re.MULTILINE,
 )
 """A number behind a term."""
+FEWEST = 2
+"""The fewest numbers behind terms: a single one may be a factor."""
 MOST = 60
 """The most numbered lines, and sides of references, that are looked at."""
 
@@ -41,7 +43,8 @@ def without_marks_of_terms(written: TracedText) -> TracedText:
     """Return an answer without the numbers behind terms of formulas that other lines explain in words."""
     listed = list(islice(_EXPLAINS.finditer(written.text), MOST))
     explained = {m["mark"]: m.start() for m in listed}
-    if not any(m["words"] for m in listed):
+    in_formulas = {m["mark"] for m in islice(_MARKED.finditer(written.text), MOST)} & explained.keys()
+    if not any(m["words"] for m in listed) or len(in_formulas) < FEWEST:
         return written
 
     def blank(match: re.Match[str]) -> str:

@@ -8,7 +8,6 @@ import sympy as sp
 from lark import Token
 
 from lagrangian.check.reading.answer import Kind
-from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import is_no_energy
 from lagrangian.records import dataclass
 
@@ -33,7 +32,7 @@ class Subject:
 
 def named_anew(subject: Subject, value: sp.Expr) -> Subject:
     """A subject; one with the name of an energy that is none by its value is a name of the answer's own."""
-    if subject.kind not in ENERGIES or subject.token is None or not is_no_energy(value):
+    if subject.kind not in ("T", "D") or subject.token is None or not is_no_energy(value):
         return subject
     return Subject("definition", str(subject.token), subject.token)
 

@@ -29,7 +29,7 @@ _UNIT = (
     r"(?![\w'’′(^*/·])"
 )
 _FACTOR = r"(?:(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s|1)(?![A-Za-z_\d])(?:²|³|\^-?\d|⁻[¹²³])?|[()])"
-_PRODUCT = rf"{_FACTOR}(?:[ ]{{0,2}}[·*/⋅]?[ ]{{0,2}}{_FACTOR}){{0,16}}"
+_PRODUCT = rf"{_FACTOR}(?:[ ]{{0,2}}+(?:[·*/⋅][ ]{{0,2}}+)?+{_FACTOR}){{0,16}}+"
 _EQUATED = re.compile(
     rf"(?:(?P<gap>[ \t]{{2,150}}+)|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
     rf"(?P<units>{_PRODUCT}(?:[ ]?=[ ]?{_PRODUCT}){{1,3}})(?(open)[ ]?\])"
@@ -37,6 +37,8 @@ _EQUATED = re.compile(
     re.MULTILINE,
 )
 """A unit that is another, behind a gap or in square brackets."""
+_SIGNED = re.compile(r"[ \t]*+[-+−–*·/=]")
+"""How a line begins that goes on with an equation."""
 _SUM = re.compile(
     rf"(?<![\w.,)/*^+·−-])(?<![/*^+·−-][ ])(?:{_NUMBER}[ ]?[-+−·*×/][ ]?){{1,8}}{_NUMBER}[ ]?=[ ]?{_NUMBER}"
     rf"(?P<unit>{_UNIT})"
@@ -86,7 +88,9 @@ def _equated(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
         before, names = text[start : match.start()], _NAME.findall(match["units"])
         if not {"kg", "N"}.intersection(names) or all(map(taken, names)) or not before.strip():
             continue
-        at = match.start() if match["open"] or "=" in before else start
+        above = text[:start].rstrip().rpartition("\n")[2][-1:]
+        goes_on = _SIGNED.match(before) is not None or above in "+-−*·/="
+        at = match.start() if match["open"] or "=" in before or goes_on else start
         yield at, text.find("\n", match.end()) % (len(text) + 1) if at == start else match.end(), ""
 
 

@@ -111,7 +111,7 @@ def _is_one(before: str, behind: str) -> bool:
 
 def without_brackets_around(text: str) -> str:
     r"""Return a row of LaTeX without brackets around it in which equations stand: \bigl(C = \cos\theta\bigr)."""
-    match = _AROUND.fullmatch(text)
+    match = _AROUND.fullmatch(text) if ")" in text or "]" in text else None
     if match is None or "=" not in match["inside"]:
         return text
     depth, stated = 0, False

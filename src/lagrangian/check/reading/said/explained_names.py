@@ -58,7 +58,8 @@ _SAID = re.compile(
 )
 """A name and its formula in a sentence, perhaps in brackets."""
 _NAMED_BEHIND = re.compile(
-    rf"(?P<said>[ \t]*,?[ \t]+{CALLED_SO}(?P<new>{_NAME}){CALLED_AFTER})(?=[ \t]*(?:[.,;](?=\s|$)|$))",
+    rf"(?P<said>(?<![ \t])[ \t]{{0,40}}+,?+[ \t]{{0,40}}+(?<=[ \t]){CALLED_SO}(?P<new>{_NAME}){CALLED_AFTER})"
+    r"(?=[ \t]*(?:[.,;](?=\s|$)|$))",
     re.MULTILINE | re.IGNORECASE,
 )
 """A name behind its formula, with words that say that this is called so."""
