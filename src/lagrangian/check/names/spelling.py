@@ -210,8 +210,7 @@ def values_meant(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Sym
     numbers, beside those of g and of angles.
     """
     judged = [x for x in lines if x.kind in ("T", "V", "L", "Xi", "equation")]
-    parts = (x for line in judged for x in sp.Add.make_args(bounded.expand(line.expr)))
-    numbers = {abs(x.as_coeff_Mul()[0]) for x in parts}  # no exponents
+    numbers = {abs(x) for line in judged for x in bounded.atoms(line.expr, sp.Rational)}
     every = {p: v for p, v in values_of(truth, judged).items() if v != 0}
     ones = {p: v for p, v in every.items() if v == 1}
     values = {p: v for p, v in every.items() if v != 1}
