@@ -91,7 +91,8 @@ def with_definitions_in_values(truth: Reference, lines: Sequence[AnsweredLine]) 
 
     A line that has numbers for all parameters, and l, names no letter: l² = 11.68 − 7.68 cos θ, 3.84 sin θ/l.
     """
-    defined = {d.symbol for d in truth.model.definitions if d.moving}
+    moving = [c.symbol for c in truth.model.coordinates]
+    defined = {d.symbol for d in truth.model.definitions if d.moving and truth.model.expand(d.symbol).has(*moving)}
     values = values_of(truth, ()) if defined else {}
 
     def put(expr: sp.Expr) -> sp.Expr:
