@@ -48,8 +48,8 @@ TIMES: dict[sp.Expr, str] = {sp.Integer(2): "twice", sp.S.Half: "half"}
 class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
     element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
-    is written. It is ``tentative`` where a force may be in one of the answer's own, ``shared`` where other bodies may
-    have the rest of it; ``why`` is what is advised, if it is no force."""
+    is written. It is ``tentative``, and no cause unless the other lines agree, where a force may be in one of the
+    answer's own or products of rates are missing, ``shared`` where other bodies may have the rest of it; ``why`` is what is advised, if it is no force."""
 
     right: bool
     moment: bool
@@ -100,7 +100,8 @@ def _without_rates(truth: Reference, line: AnsweredLine, none: Mapping[sp.Basic,
     lacking = bounded.factored(whole) or whole
     what = text(f"In {line.title}, the term ", lacking, " is missing.")
     excess = -CompiledExpressions([factor]).at(truth.states)[0] * balance.turned
-    return KnownPart(False, balance.moment, what, excess=excess, term=WrongTerm(lacking, sp.oo), why=WHY_RATES)
+    term = WrongTerm(lacking, sp.oo)
+    return KnownPart(False, balance.moment, what, excess=excess, term=term, tentative=True, why=WHY_RATES)
 
 
 def _part(
