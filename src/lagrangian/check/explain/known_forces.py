@@ -49,7 +49,8 @@ class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
     element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
     is written. It is ``tentative``, and no cause unless the other lines agree, where a force may be in one of the
-    answer's own or products of rates are missing, ``shared`` where other bodies may have the rest of it; ``why`` is what is advised, if it is no force."""
+    answer's own or products of rates are missing, ``shared`` where other bodies may have the rest of it;
+    ``why`` is what is advised, if it is no force."""
 
     right: bool
     moment: bool
