@@ -31,7 +31,8 @@ from lagrangian.check.places import (
 from lagrangian.check.reading.prose.values_said import AT, START, STEADY, STILL
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of, zero_everywhere
-from lagrangian.check.said_cases import where_it_holds
+from lagrangian.check.said_cases import values_near, where_it_holds
+from lagrangian.check.special_cases import INFINITE
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -142,9 +143,9 @@ def _is_of_rest(truth: Reference, line: AnsweredLine) -> bool:
 def _is_of_place(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a statement holds at the position, or for the constant, that words in front of it say: at θ = 90°:
     ℓ = √(a² + b²); for n = 1: J = J1 + J2."""
-    said = [x.removeprefix(AT).partition(" = ") for x in line.near if x.startswith(AT)]
-    own = (*truth.model.coordinates, *truth.model.parameters)
-    places = {x.symbol: _number(value) for x in own for name, _, value in said if x.name == name and _is_number(value)}
+    own = {x.symbol for x in (*truth.model.coordinates, *truth.model.parameters)}
+    said = (pair for case in values_near(truth, line.near) for pair in case.given.items())
+    places = {x: value for x, value in said if x in own and value.is_number and abs(value) != INFINITE}
     if not places or line.expr.has(sp.Derivative) or not line.expr.has(*places):
         return False
     there = cast("sp.Expr", line.expr.xreplace(places))
@@ -161,18 +162,6 @@ def _is_rounded_zero(truth: Reference, expr: sp.Expr) -> bool:
     if not expr.free_symbols or not all(x.is_Float or x.is_Rational for x in terms):
         return False
     return bool(abs(sum(terms)) <= ROUNDED * max(abs(x) for x in terms))
-
-
-def _is_number(written: str) -> bool:
-    """Whether a value is a number, and no name."""
-    return written.lstrip("-")[:1].isdigit()
-
-
-def _number(written: str) -> sp.Expr:
-    """A value such as 90*pi/180 or -1*pi/2."""
-    sign = -1 if written.startswith("-") else 1
-    factor, _, divisor = written.lstrip("-").partition("*pi/")
-    return sign * sp.Rational(factor) * (sp.pi / int(divisor) if divisor else 1)
 
 
 def _once(written: str) -> str:
@@ -258,9 +247,7 @@ def _rows_for_small(truth: Reference) -> Iterator[Sequence[sp.Expr]]:
         yield changed
         if moving:
             yield first_order(changed, names) or ()
-    yield (
-        first_order(truth.rows, [x for c in truth.model.coordinates for x in (c.symbol, c.rate, c.acceleration)]) or ()
-    )
+    yield first_order(truth.rows, names) or ()
     if sizes := amplitudes(truth):
         yield first_order(truth.rows, sizes) or ()
         yield first_order(truth.rows, [*names, *sizes]) or ()

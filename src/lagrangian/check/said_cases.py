@@ -39,6 +39,13 @@ def where_it_holds(truth: Reference, line: AnsweredLine) -> str | None:
     return next((case.said for case in cases if follows(truth, line.expr, case.given)), None)
 
 
+def values_near(truth: Reference, near: Collection[str]) -> list[SaidCase]:
+    """The cases of one value each that words say near a line, in an order that does not depend on that of sets."""
+    model = truth.model
+    named = {x.name: x for x in (*model.coordinates, *model.parameters, *model.inputs)}
+    return [_value(named, x) for x in sorted(near) if x.startswith(AT)]
+
+
 def _holds_gone(expr: sp.Expr, case: SaidCase) -> bool:
     """Whether an expression holds what is 0 in a case: then it is about another."""
     bare = expr.xreplace({x: sp.Dummy() for x in expr.atoms(sp.Derivative) if x not in case.given})
@@ -47,9 +54,7 @@ def _holds_gone(expr: sp.Expr, case: SaidCase) -> bool:
 
 def _cases(truth: Reference, near: Collection[str]) -> Iterator[SaidCase]:
     """The cases of which words speak: each value that they say, all of them, and these with how the system moves."""
-    model = truth.model
-    named = {x.name: x for x in (*model.coordinates, *model.parameters, *model.inputs)}
-    values = [_value(named, x) for x in sorted(near) if x.startswith(AT)]
+    values = values_near(truth, near)
     choices: dict[Any, list[SaidCase]] = {}
     for case in values:
         choices.setdefault(next(iter(case.given)), []).append(case)
