@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
-import threading
 from pathlib import Path
 
 import pytest
 
 import lagrangian as lg
 from built_in import derivation
-from lagrangian.check.classes import processes
 from lagrangian.errors import Error
 
 WHOLE = """T = m1*x1'^2/2 + m2*(x1' + x2r')^2/2
@@ -81,28 +79,6 @@ def test_what_an_incomplete_answer_lacks_is_named() -> None:
     assert rows[1].comment[0].endswith("something is missing: the equation of x2r.")
     assert rows[2].right and "missing" not in " ".join(rows[2].comment)
     assert all("is missing: T*" in (rows[0].feedback or "") for _ in (0,))
-
-
-@pytest.mark.slow
-def test_answers_are_judged_while_other_processes_begin(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is broken off early keeps what was judged by then."""
-    judged, opened = threading.Event(), processes._Team._opened
-
-    def late(team: processes._Team) -> object:
-        assert judged.wait(120)
-        return opened(team)
-
-    monkeypatch.setattr(processes._Team, "_opened", late)
-    answers = {f"answer {k}": WHOLE.replace("F", f"F + {k} - {k}") for k in range(6)}
-    told: list[int] = []
-
-    def progress(done: int, _: int) -> None:
-        told.append(done)
-        if done == 4:
-            judged.set()
-
-    found = carts().check_class(answers, processes=2, progress=progress)
-    assert [row.right for row in found.rows] == [True] * 6 and told[-1] == 6
 
 
 def test_a_question_in_a_message_ends_with_its_own_mark() -> None:

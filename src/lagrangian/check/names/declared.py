@@ -241,10 +241,13 @@ def _assumed(
     symbols = {p.name: p.symbol for p in truth.model.parameters}
     values: dict[sp.Symbol, sp.Expr] = {}
     kept: list[AnsweredLine] = []
+    given = {(x.number, x.text): x.expr for x in lines if x.kind == "given" and x.expr.is_number}
     for line in lines:
         if line.kind != "given":
             kept.append(line)
             continue
+        if (shared := given.get((line.number, line.text))) is not None:
+            line = replace(line, expr=shared)  # m of m = J = 0
         symbol = symbols[str(line.name)]
         value = truth.expand(cast("sp.Expr", line.expr.xreplace(values)))
         known = value.free_symbols <= set(symbols.values())

@@ -17,13 +17,11 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.placeholders import called
+from lagrangian.check.reading.prose.remarks import CONSTANT
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
-
-CONSTANT = frozenset(["const", "constant", "konst", "konstant", "cst", "cte"])
-"""What a constant behind an energy is called that changes no equation."""
 
 MOST = 8
 """The largest number of relations between which contradictions are sought."""

@@ -370,7 +370,8 @@ def behind(line: str, numbers: Numbering, words: Words) -> str:
         return line
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
-    if numbers.lettered and (match := _LETTER_BEHIND.search(line)) is not None:
+    led = _AFTER.search(line) is not None  # with what leads to the letter: ..... eq. (i)
+    if numbers.lettered and not led and (match := _LETTER_BEHIND.search(line)) is not None:
         line = blank(line, match.start(), len(line))
     if (far := _FAR_BEHIND.search(line)) is not None and far["tag"] in numbers.tags and "=" in line[: far.start()]:
         line = blank(line, far.start(), len(line))

@@ -57,7 +57,7 @@ from lagrangian.check.reading.primes_beside_rates import values_beside_rates
 from lagrangian.check.reading.reading_budget import ReadingBudget
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.said.quantity_words import labelled
-from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
+from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told, unused
 from lagrangian.check.reading.slopes_by_dots import sloped
 from lagrangian.check.reading.subject import Subject, is_label_of_equation, named_anew
 from lagrangian.check.reading.subjects import Subjects, bare_names
@@ -297,7 +297,7 @@ class Lines:
         sides = [side for s in self._statements for side in s.sides]
         used = self.names.occurs(subject.token) > 1 or key(str(subject.token)) in derived(sides)
         if not used and not subject.order and not self.subjects.only_calls(subject.token):
-            self._not_judged(reader, f"nothing else uses {subject.token}")
+            self._not_judged(reader, unused(str(subject.token)))
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Read a named matrix: a column of all Ξ states each of them; any other is stored for the lines that use it."""

@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrangian.check.reading.answer import AnswerLine
 from lagrangian.check.reading.line_forms import accelerates
-from lagrangian.check.reading.prose.remarks import is_remark
+from lagrangian.check.reading.prose.remarks import CONSTANT, is_remark
 from lagrangian.errors import ParseError, Place
 
 MOST_TOLD = 5
@@ -84,3 +84,8 @@ def without_names_of_rates(lines: Sequence[AnswerLine], given: str) -> tuple[Ans
         return rest == [left] or (line.text not in given and all(x[:1] == left[:1] for x in rest))
 
     return tuple(x for x in lines if not is_name(x)) or tuple(lines)
+
+
+def unused(name: str) -> str:
+    """Why the definition of a name is not judged that nothing else uses."""
+    return "it says that something is constant" if name.lower() in CONSTANT else f"nothing else uses {name}"

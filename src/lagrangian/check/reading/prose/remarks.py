@@ -63,6 +63,8 @@ _MULTIPLIER = re.compile(
     re.MULTILINE,
 )
 """The multiplier of a constraint, behind a gap or a comma at the end of its line."""
+CONSTANT = frozenset(["const", "constant", "konst", "konstant", "cst", "cte"])
+"""What is called a constant: one behind an energy changes no equation."""
 _CONSTANT = re.compile(
     r"(?:\$\\?[A-Za-z]{1,12}[ \t]*=[ \t]*\$|(?:(?<=\()|(?<=, )|(?<=with ))[^\W\d]\w{0,11}[ ]?=)[ \t]*"
     r"(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?"

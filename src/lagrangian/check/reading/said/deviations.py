@@ -75,7 +75,8 @@ def with_deviations(
     for match in islice(_OF_INPUT.finditer(written.text), MOST):
         fixed = not any(moves(x) or drives(x) for x in map(_bare, _NAMES.findall(match["rest"])))
         if fixed and drives(_bare(match["of"])) and not taken(_bare(match["more"])):
-            edits.append((*match.span(), f"{match['more']} = {match['of']} - ({match['rest']})"))
+            rest = match["rest"] if _NAMES.fullmatch(match["rest"]) else f"({match['rest']})"
+            edits.append((*match.span(), f"{match['more']} = {match['of']} - {rest}"))
     moving = moving_names(written.text)
     for match in islice(_UNIFORM.finditer(written.text), MOST):
         if (said := _of_uniform_motion(match, moves, moving)) is not None:

@@ -44,7 +44,8 @@ _SHEET = (
     r"(?:[ ](?:sheet|statement|description|text|notation|letters?|symbols?))?"
 )
 _IN = r"(?:in|on|of|from|by|im|auf|in[ ]der|dans|sur)[ ]"
-_THEIRS = rf"(?:(?:the|its|der|die|das)[ ])?(?:[^\W\d_]{{3,20}}[ ]){{0,2}}(?P<own>{_LIST})"
+_BESIDE = r"(?!(?:plus|also|besides|beside|with|dazu|sowie|avec)[ ])"
+_THEIRS = rf"(?:(?:the|its|der|die|das)[ ])?{_BESIDE}(?:[^\W\d_]{{3,20}}[ ]){{0,2}}(?P<own>{_LIST})"
 _REFERENCES = tuple(
     re.compile(rf"(?P<opens>\([ ]?|,[ ]){form}(?(opens)[ ]?(?:\)|(?=[ \t]*(?:\\\\|[\n|;.&]|\Z))))", re.IGNORECASE)
     for form in (
