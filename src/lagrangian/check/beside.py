@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.explain.misconceptions.small_angle import first_order, small
+from lagrangian.check.names.own_accelerations import own_accelerations
 from lagrangian.check.places import (
     AT_REST,
     ENDS_IN_ZERO,
@@ -37,7 +38,6 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
-from lagrangian.read.letters import key
 
 _D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
 _SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
@@ -66,8 +66,7 @@ def beside(
     complete = comparison.rank >= truth.n
     if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
-    accelerations = [c.acceleration for c in truth.model.coordinates]
-    moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
+    moving = own_accelerations(truth.model, lines)
     placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
     aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
     still = [x for x in wrong if complete and stands_still(truth, x.expr, x.text)]

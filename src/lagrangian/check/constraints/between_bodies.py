@@ -16,11 +16,11 @@ from lagrangian.check.constraints.counted_together import counted_together
 from lagrangian.check.constraints.determined import SMALL, in_span
 from lagrangian.check.constraints.eliminated import Eliminated, without_forces
 from lagrangian.check.constraints.in_rates import in_coordinates
+from lagrangian.check.names.own_accelerations import own_accelerations
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Text
-from lagrangian.read.letters import key
 
 STATES = 3
 """Random states at which it is seen whether a line says more than the constraints."""
@@ -55,8 +55,7 @@ def _without_forces_between(truth: Reference, lines: Sequence[AnsweredLine]) -> 
 def _confirmed(truth: Reference, lines: Sequence[AnsweredLine], found: Eliminated) -> Iterator[frozenset[sp.Basic]]:
     """The forces of lines in which another one stands that the answer gives a value, and that stands in an equation of
     motion as well: J z″/r = (S₂ − S₁) r beside S₁ = … and m s″ = m g − S₁."""
-    accelerations = [c.acceleration for c in truth.model.coordinates]
-    stated = {key(str(x.name)) for x in lines if x.kind == "definition" and x.expr.has(*accelerations)}
+    stated = own_accelerations(truth.model, lines)
     for line, has in zip(found.lines, found.held, strict=True):
         own = stated & line.names
         if has and own:
@@ -67,8 +66,7 @@ def _confirmed(truth: Reference, lines: Sequence[AnsweredLine], found: Eliminate
 
 def _stated(truth: Reference, lines: Sequence[AnsweredLine]) -> int:
     """How many names with accelerations in them the answer gives a value, as H = τ/R − J x″/R²."""
-    accelerations = [c.acceleration for c in truth.model.coordinates]
-    return len({x.name for x in lines if x.kind == "definition" and x.expr.has(*accelerations)})
+    return len(own_accelerations(truth.model, lines))
 
 
 def _says_more(truth: Reference, line: AnsweredLine) -> bool:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -13,6 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness, voted
+from lagrangian.check.explain.quoted import LINE
 from lagrangian.check.explain.reaction_not_drawn import as_balances_of_bodies
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference, terms
@@ -133,13 +133,9 @@ def with_sums_compared(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict with wrong equations of which no mistake speaks compared with the sum that they are: the balance of a
     cart with the force F between it and a slider is the equation of the cart less that of the slider."""
     verdict = as_balances_of_bodies(truth, verdict)
-    said = " ".join(str(m.what) for m in verdict.mistakes)
-    left = [f for f in open_equations(verdict.findings) if re.search(rf"\b[Ll]ine {f.line.number}\b", said) is None]
+    told = {int(x["number"]) for m in verdict.mistakes for x in LINE.finditer(str(m.what))}
+    rows = {m.coordinate for m in verdict.mistakes} - {None}
+    left = [f for f in verdict.open_equations if f.line.number not in told and f.coordinate not in rows]
     if not verdict.mistakes or not left or verdict.motion:
         return verdict
     return replace(verdict, findings=as_combinations(truth, verdict.findings, left, half=True)[0])
-
-
-def open_equations(findings: Sequence[Finding]) -> list[Finding]:
-    """The wrong equations that follow from no other line."""
-    return [f for f in findings if f.is_open and f.line.kind == "equation"]

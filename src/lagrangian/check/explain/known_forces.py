@@ -5,7 +5,7 @@ Where all that is known in a line is right, only its own forces can be wrong in 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from functools import lru_cache
 from itertools import product
@@ -70,8 +70,16 @@ class KnownPart:
         return any(truth.expand(x).free_symbols & term.free_symbols for x in sizes if x is not None)
 
 
-def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> dict[int, KnownPart]:
-    """What is known in those of some lines that are balances of bodies, by the place of the line."""
+def known_parts(
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    forces: Sequence[sp.Basic],
+    named: Set[str] = frozenset(),
+) -> dict[int, KnownPart]:
+    """What is known in those of some lines that are balances of bodies, by the place of the line.
+
+    ``named`` are the keys of names with accelerations in them: what a line with one of them lacks may be lacking there.
+    """
     none = dict.fromkeys(forces, np.zeros(truth.states.size))
     bodies = free_bodies(truth)
     factors, alike = _factors(truth), _alike(truth)
@@ -83,7 +91,9 @@ def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequenc
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
     own = {i: bool(forces) and lines[i].expr.has(*forces) for i in matches}
     told = {i: _part(truth, factors, lines[i], m, explicit, own=own[i]) for i, m in matches.items()}
-    others = {i: _without_rates(truth, x, none) for i, x in enumerate(lines) if i not in matches}
+    others = {
+        i: _without_rates(truth, x, none) for i, x in enumerate(lines) if i not in matches and not named & x.names
+    }
     return told | {i: part for i, part in others.items() if part is not None}
 
 
@@ -95,7 +105,7 @@ def _without_rates(truth: Reference, line: AnsweredLine, none: Mapping[sp.Basic,
         return None
     balance, scale = found
     factor = plain_scale(truth, scale)
-    if factor is None or balance.turned is None:
+    if factor is None:
         return None
     whole = bounded.expand(factor * balance.of_rates(bodies.accelerations))
     lacking = bounded.factored(whole) or whole

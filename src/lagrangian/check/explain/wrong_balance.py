@@ -38,6 +38,7 @@ from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_t
 from lagrangian.check.explain.two_wrong_balances import with_second_balance
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
+from lagrangian.check.names.own_accelerations import own_accelerations
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
 from lagrangian.derive.sampling import Array
@@ -91,7 +92,7 @@ def with_wrong_balance(
         return verdict  # multipliers
     balances, derived = without_derived(on, balances, lines)
     later = (*later, *derived)
-    parts = known_parts(truth, balances.lines, balances.forces)
+    parts = known_parts(truth, balances.lines, balances.forces, own_accelerations(truth.model, lines))
     solved = _one_blamed(on, balances, later, parts, right_laws(truth, lines))
     if solved is None:
         notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
