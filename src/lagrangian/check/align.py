@@ -139,7 +139,7 @@ def fit(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[float, int]:
     how many slopes they have."""
     c, u = truth.model.coordinates, truth.model.inputs
     by = [*(x for q in c for x in (q.symbol, q.rate, q.acceleration)), *(x.symbol for x in u)]
-    rights = {"T": [truth.T], "V": [truth.V], "L": [truth.L], "Xi": list(truth.Xi), "equation": list(truth.rows)}
+    rights = {kind: [x] for kind, x in truth.energies.items()} | {"Xi": list(truth.Xi), "equation": list(truth.rows)}
     found, count = 0.0, 0
     for kind, exprs in rights.items():
         own = [line.expr for line in lines if line.kind == kind]

@@ -120,7 +120,8 @@ def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explai
 def _with_values_meant(truth: Reference, said: Declared, verdict: Verdict, hint: int, explain: bool) -> Verdict | None:
     """The verdict on a wrong answer with the values that it has in place of letters; None if it has none."""
     valued = truth.with_values(said.values) if said.values else truth
-    values = values_meant(valued, _filled(valued, said.lines)) if verdict.status is Status.WRONG else {}
+    wrong = verdict.status is Status.WRONG and truth.model.values
+    values = values_meant(valued, _filled(valued, said.lines)) if wrong else {}
     judged = _assuming(truth, replace(said, values=said.values | values), hint, explain) if values else None
     return judged and replace(judged, notes=(substituted(values), *judged.notes))
 
@@ -150,9 +151,8 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
             verdict = with_fitting_advice(truth, said.lines, with_terms_as_they_stand(truth, verdict))
             verdict = with_forces_named(truth, said.lines, with_twice_said(said.lines, verdict))
             verdict = without_balanced_weights(truth, said.lines, verdict)
-        verdict = without_shared_signs(
-            said_in_numbers(truth, in_own_names(truth, without_made_names(written), verdict))
-        )
+        verdict = in_own_names(truth, without_made_names(written), verdict)
+        verdict = without_shared_signs(said_in_numbers(truth, verdict))
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

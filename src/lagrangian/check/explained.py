@@ -8,7 +8,7 @@ from dataclasses import replace
 from lagrangian.check.coordinates.tried import new_names
 from lagrangian.check.explain.advice import without_lagrange
 from lagrangian.check.explain.candidates import too_long
-from lagrangian.check.explain.combinations_meant import MeantCombination, as_combinations, open_equations
+from lagrangian.check.explain.combinations_meant import MeantCombination, as_combinations
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.divided_by_a_part import divided_by_a_part
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
@@ -35,11 +35,11 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
     if verdict.hint == 0:
         return replace(verdict, notes=notes)
     named = mistakes(truth, spelling.lines, judged.findings)
-    open_ones = open_equations(verdict.findings) if not named.told or named.left or not named.sure else []
+    open_ones = verdict.open_equations if not named.told or named.left or not named.sure else []
     unexplained = open_ones if not named.sure else [f for f in open_ones if any(f.line is x for x in named.left)]
     elsewhere = any(m.name in OF_ANOTHER_EQUATION for m in named.told)
     several = len(named.told) > 1 and elsewhere and without_lagrange(spelling.lines)
-    compared = open_equations(verdict.findings) if several else unexplained or open_ones
+    compared = verdict.open_equations if several else unexplained or open_ones
     findings, meant = as_combinations(truth, verdict.findings, compared, half=several)
     if meant:
         return _with_combinations(truth, spelling, replace(verdict, findings=findings), meant, notes)

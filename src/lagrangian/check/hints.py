@@ -129,21 +129,30 @@ def hinted(
     if brief is not None and all(map(_is_name, brief.parts)):
         return brief
     before, after = _SAID[kind].split("{}")
-    place: list[str | Left] = list(_place(kind, step, element, coordinate))
-    if not before and isinstance(first := place[0], str):
-        place[0] = first[:1].upper() + first[1:]
-    joined: list[str | Left] = []
-    for part in (before, *place, after):
-        if isinstance(part, str) and joined and isinstance(joined[-1], str):
-            joined[-1] += part
-        elif part != "":
-            joined.append(part)
-    return text(*joined)
+    return sentence(*(x for x in (before, *_place(kind, step, element, coordinate), after) if x != ""))
 
 
 def advised(kind: MistakeKind, step: int) -> str:
     """What to look at to find the mistake."""
     return _OF_KINDS.get(kind) or _OF_STEPS.get(step, _OF_STEPS[5])
+
+
+def sentence(*parts: str | Left) -> Text:
+    """A sentence of parts, in which neighbouring words are joined."""
+    joined: list[str | Left] = []
+    for part in parts:
+        if isinstance(part, str) and joined and isinstance(last := joined[-1], str):
+            joined[-1] = last + part
+        else:
+            joined.append(part)
+    return text(*capital(tuple(joined)))
+
+
+def capital(words: tuple[str | Left, ...]) -> tuple[str | Left, ...]:
+    """Words that begin a sentence."""
+    if words and isinstance(first := words[0], str):
+        return (first[:1].upper() + first[1:], *words[1:])
+    return words
 
 
 def _place(kind: MistakeKind, step: int, element: str | None, coordinate: str | Left | None) -> tuple[str | Left, ...]:

@@ -158,6 +158,8 @@ def _with_wrong_names(truth: Reference, findings: Sequence[Finding]) -> list[Fin
         for f in findings
         if f.is_open and f.line.kind in ("equation", "identity") and f.line.sides and f.line.sides[0] in names
     ]
+    if not wrong:
+        return list(findings)
 
     def uses(finding: Finding) -> bool:
         line = finding.line

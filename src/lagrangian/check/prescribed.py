@@ -123,9 +123,11 @@ def _of_own_energy(
 ) -> AnsweredLine:
     """A derivative of the answer's own T*, V or D with what it has too much where the names of the system in this are
     what the answer says."""
+    if line.kind not in OF_OWN:
+        return line
     c = next((x for x in truth.model.coordinates if x.name == line.name), None)
     energies = [x.expr for x in lines if x.kind == line.kind[0] and x.number <= line.number and x.expr.has(*table)]
-    if c is None or line.kind not in OF_OWN or not energies:
+    if c is None or not energies:
         return line
     by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
     right, own = truth.expand(energies[-1]), bounded.written_out(energies[-1], table)

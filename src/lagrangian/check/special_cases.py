@@ -13,13 +13,11 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ModelError
-from lagrangian.model import time
 
 STEPS = 60
 """The most steps of Newton's method."""
@@ -85,10 +83,7 @@ def _names(truth: Reference, expr: sp.Expr) -> dict[Any, sp.Expr] | None:
     """A symbol for everything that moves; None if the expression holds what the system does not have."""
     moving = [x for c in truth.model.coordinates for x in (c.acceleration, c.rate, c.symbol)]
     moving += [u.symbol for u in truth.model.inputs]
-    constants = {p.symbol for p in truth.model.parameters} | {time}
-    if not set(expr.atoms(sp.Derivative, AppliedUndef)) <= set(moving):
-        return None
-    if not bounded.letters(expr) <= constants | set(moving):
+    if not bounded.letters(expr) <= truth.names or not expr.atoms(sp.Derivative) <= set(moving):
         return None
     return {x: sp.Symbol(f"{_MOVES}{k}") for k, x in enumerate(moving)}
 

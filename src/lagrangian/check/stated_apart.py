@@ -98,29 +98,35 @@ def _of_one_element(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[int
     if not said or truth.derivation.multipliers:
         return {}
     moving = [c.acceleration for c in truth.model.coordinates]
-    rows = [x.expr for x in lines if x.kind == "equation" and x.expr.has(*moving)]
+    rows = [truth.expand(x.expr) for x in lines if x.kind == "equation" and x.expr.has(*moving)]
+    if not rows:
+        return {}
 
     def is_row(expr: sp.Expr, row: sp.Expr) -> bool:
-        return any(zero_everywhere(truth, truth.expand(expr) - sign * row) for sign in (1, -1))
+        return any(zero_everywhere(truth, expr - sign * row) for sign in (1, -1))
 
-    right = [[is_row(x, row) for row in truth.rows] for x in rows]
-    if not all(map(any, right)) or not all(map(any, zip(*right, strict=True))) or not rows:
-        return {}
     found: dict[int, str] = {}
     own_words = {e.name: {x.lower() for x in _WORD.findall(e.name)} for e in truth.model.elements}
     for line in said:
         words = {x.lower() for x in _WORD.findall(line.words)}
+        if any(map(_WHOLE.fullmatch, words)):
+            continue
         for e in truth.model.elements:
-            own = truth.expand(e.kinetic(truth.model) if line.kind == "T" else e.potential(truth.model))
             named = bool(words & own_words[e.name])
             others = set[str]().union(*(x for name, x in own_words.items() if name != e.name)) - own_words[e.name]
-            if own == 0 or not named or words & others or any(map(_WHOLE.fullmatch, words)):
+            if not named or words & others:
                 continue
-            if zero_everywhere(truth, own - (truth.T if line.kind == "T" else truth.V)):
+            own = truth.expand(e.kinetic(truth.model) if line.kind == "T" else e.potential(truth.model))
+            if own == 0:
+                continue
+            if zero_everywhere(truth, own - truth.energies[line.kind]):
                 continue  # the only one
             if zero_everywhere(truth, truth.expand(line.expr) - own):
                 found[id(line)] = e.name
-    return {k: name for k, name in found.items() if name}
+    if not found:
+        return {}
+    right = [[is_row(x, row) for row in truth.rows] for x in rows]
+    return found if all(map(any, right)) and all(map(any, zip(*right, strict=True))) else {}
 
 
 def _names_itself(line: AnsweredLine) -> bool:

@@ -39,7 +39,7 @@ _SQUARE = re.compile(r"(?:²|(?:\^|\*\*)[ ]?\{?[ ]?2[ ]?\}?)[ \t$&]*\Z")
 _FUNCTION = re.compile(r"[ \t$]*\\?(?P<of>sin|cos|tan)[ \t]*(?:\(|\\left\(|[ {\\]|(?=[^\x00-\x7f]))[^=+\n]{1,30}=")
 """How a definition begins that says what the sine of a name is."""
 IS_MISSING = " is missing"
-"""What a note says behind the name of what an incomplete answer lacks."""
+"""What is said behind the name of what an answer lacks."""
 WOULD_BE_RIGHT = "would be right"
 """What a note says that gives the remedy."""
 _IN_LINE = re.compile(r"In line (\d{1,6})\b")
@@ -355,6 +355,11 @@ class Verdict:
     def open_findings(self) -> tuple[Finding, ...]:
         """The lines where the answer goes wrong: those that are wrong and follow from none."""
         return tuple(f for f in self.findings if f.is_open)
+
+    @property
+    def open_equations(self) -> list[Finding]:
+        """The wrong equations that follow from no other line."""
+        return [f for f in self.open_findings if f.line.kind == "equation"]
 
     @property
     def first_wrong(self) -> Finding | None:

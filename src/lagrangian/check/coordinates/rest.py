@@ -44,13 +44,15 @@ def _held_at_rest(truth: Reference, rows: Sequence[sp.Expr]) -> dict[sp.Expr, sp
     """The coordinates that are not 0 where an input balances linear rows, with one coordinate that is 0: the drum of a
     lift, wherever its motor holds it."""
     inputs, q = [u.symbol for u in truth.model.inputs], truth.derivation.coordinates
+    if not inputs:
+        return {}
+    free = sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows])
+    if free.has(*q, *inputs, time) or free.rank() != len(q) - 1:
+        return {}
     for held, zero in product(inputs[:MOST_INPUTS], q):
         of = [held, *(x for x in q if x != zero)]
         others: Any = {x: sp.S.Zero for x in (zero, *inputs) if x != held}
         put = [bounded.expand(cast("sp.Expr", r.xreplace(others))) for r in rows]
-        free = sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows])
-        if free.has(*q, *inputs, time) or free.rank() != len(q) - 1:
-            return {}
         slopes = sp.Matrix([[bounded.diff(r, x) for x in of] for r in put])
         if slopes.has(*of) or slopes.det() == 0:
             continue

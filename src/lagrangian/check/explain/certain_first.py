@@ -15,13 +15,12 @@ from lagrangian import bounded
 from lagrangian.check.explain.second_choices import MADE_IN
 from lagrangian.check.explain.term_said import REASON, with_reason
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
-from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 
 ENERGIES = ("T", "V", "L")
 """The kinds of lines that are energies."""
 OF_ENERGY = 3
 """The step of weights and springs."""
-MISSING = " is missing"
 MOST = 200
 """The most terms of a line, as they are written, that are compared."""
 
@@ -84,7 +83,7 @@ def _terms(finding: Finding) -> Iterator[sp.Expr]:
 
 def _too_much(mistake: Mistake, changed: list[tuple[Finding, TermDifference, TermDifference]]) -> Mistake:
     """A mistake that a term is missing, told as the one that takes it away."""
-    if MISSING not in str(mistake.what):
+    if IS_MISSING not in str(mistake.what):
         return mistake
     formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
     for finding, old, new in changed:

@@ -181,5 +181,5 @@ def _listed(terms: Sequence[sp.Expr]) -> list[str | sp.Expr]:
 
 def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDifference]]:
     """The terms that differ in the equation of a mistake, in lines that follow from none, from its element."""
-    every = [(f, d) for f in verdict.open_findings if f.line.kind == "equation" for d in f.differences]
+    every = [(f, d) for f in verdict.open_equations for d in f.differences]
     return [(f, d) for f, d in every if mistake.element is None or mistake.element in {o.element for o in d.origins}]

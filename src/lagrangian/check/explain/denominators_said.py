@@ -46,7 +46,7 @@ def with_denominators_named(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict; what is wrong in a term m s θ̈/(J + m s) of an equation that is solved for θ̈ is told of the term m s
     in the denominator, as the acceleration itself stands alone."""
     moving = [c.acceleration for c in truth.model.coordinates]
-    exprs = [f.line.expr for f in verdict.open_findings if f.line.kind == "equation"]
+    exprs = [f.line.expr for f in verdict.open_equations]
     solved = [a for a in moving if any(x.has(a) and bounded.diff(x, a).is_number for x in exprs)]
     if not solved:
         return verdict

@@ -47,7 +47,7 @@ def _by_terms(truth: Reference, mistake: Mistake, verdict: Verdict, stated: bool
         return mistake
     if sum(m.coordinate in (mistake.coordinate, None) and m.step in (KINETIC, STEP) for m in verdict.mistakes) > 1:
         return mistake
-    wrong = [f for f in verdict.open_findings if f.line.kind == "equation"]
+    wrong = verdict.open_equations
     own = [f for f in wrong if f.coordinate == mistake.coordinate]
     said = _said(truth, own[0]) if len(own) == 1 else None
     if said is None:

@@ -22,7 +22,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.derive.reasons.loads import PassedOn, applied_loads, on_body
 from lagrangian.derive.reasons.motion import Moving, moving
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
-from lagrangian.model import Element, Gravity, time
+from lagrangian.model import Element, Gravity
 from lagrangian.records import dataclass
 
 MOST_PARTS = 7
@@ -46,10 +46,10 @@ class Balance:
     inertia: Array
     slopes: Array
     loads: Mapping[Element, Array]
-    formulas: tuple[Mapping[Element, sp.Expr], ...] = ()
-    shared: frozenset[Element] = frozenset()
-    turned: Array | None = None
-    inertias: tuple[sp.Expr, ...] = ()
+    formulas: tuple[Mapping[Element, sp.Expr], ...]
+    shared: frozenset[Element]
+    turned: Array
+    inertias: tuple[sp.Expr, ...]
 
     def of_rates(self, accelerations: Sequence[sp.Expr]) -> sp.Expr:
         """What of the inertia has no acceleration: centripetal, Coriolis and gyroscopic terms."""
@@ -102,47 +102,44 @@ class FreeBodies:
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
         self.accelerations = [c.acceleration for c in truth.model.coordinates]
-        model = truth.model
-        given = (*model.parameters, *model.inputs, *model.definitions, *model.coordinates)
-        self.known = {time, *(x.symbol for x in given)}
+        self.known = truth.names | {d.symbol for d in truth.model.definitions}
         self.balances: list[Balance]
         try:
             self.balances = list(_Balancing(truth).all())
         except bounded.TooLarge:  # then nothing is told of balances
             self.balances = []
+        self.with_rates = [b for b in self.balances if np.abs(b.turned).max() > NEAR]
 
     def matches(self, line: sp.Expr, known: Mapping[sp.Basic, Array]) -> list[Match]:
         """The balances of which a line, with forces of its own that are ``known``, is a multiple in its inertia."""
-        if not line.has(*self.accelerations):
+        if (sampled := self._sampled(line, known)) is None:
             return []
-        states = self.truth.states
-        compiled = CompiledExpressions([line])
-        values = compiled.at(states, known)[0]
-        slopes = compiled.slopes(self.accelerations).at(states, known)
-        if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
-            return []
+        values, slopes = sampled
         found = (_match(b, values) for b in self.balances if proportional(b.slopes, slopes))
         return [m for m in found if m is not None]
 
     def without_rates(self, line: sp.Expr, known: Mapping[sp.Basic, Array]) -> tuple[Balance, Array] | None:
         """The one balance, and its multiple, of which a line has the accelerations and the forces that it has of it
         rightly, and none of the terms with products of rates; None if there is none."""
-        if not line.has(*self.accelerations):
+        if not self.with_rates or (sampled := self._sampled(line, known)) is None:
             return None
-        states = self.truth.states
-        compiled = CompiledExpressions([line])
-        values, slopes = compiled.at(states, known)[0], compiled.slopes(self.accelerations).at(states, known)
-        if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
-            return None
-        for b in self.balances:
-            turned = b.turned
-            if turned is None or np.abs(turned).max() <= NEAR or not proportional(b.slopes, slopes):
+        values, slopes = sampled
+        for b in self.with_rates:
+            if not proportional(b.slopes, slopes):
                 continue
-            bare = replace(b, inertia=b.inertia - turned)
-            found = _match(bare, values)
+            found = _match(replace(b, inertia=b.inertia - b.turned), values)
             if found is not None and not found.wrong:
                 return b, found.scale
         return None
+
+    def _sampled(self, line: sp.Expr, known: Mapping[sp.Basic, Array]) -> tuple[Array, Array] | None:
+        """The values of a line with accelerations, and its slopes by these, at every state; None if there are none."""
+        if not line.has(*self.accelerations):
+            return None
+        compiled = CompiledExpressions([line])
+        values = compiled.at(self.truth.states, known)[0]
+        slopes = compiled.slopes(self.accelerations).at(self.truth.states, known)
+        return (values, slopes) if np.isfinite(values).all() and np.isfinite(slopes).all() else None
 
     def is_of_some(self, line: sp.Expr) -> bool:
         """Whether a line has the accelerations of some bodies, and not those of an equation of motion: it is the

@@ -51,16 +51,16 @@ def with_names_exchanged(truth: Reference, lines: Sequence[AnsweredLine], verdic
     roots = verdict.open_findings
     if verdict.mistakes or not roots or truth.derivation.multipliers:
         return verdict
-    used = [*(x for x in lines if x.kind == "equation"), *(f.line for f in roots)]
-    names = [x for x in own_names(truth, lines, used) if not x.given]
     if len(roots) == 1 and (term := _left_out(truth, roots[0], verdict.findings)) is not None:
         blamed = replace(roots[0], differences=(TermDifference("missing", term, sp.S.Zero, None),), elements=())
         findings = tuple(blamed if f is roots[0] else f for f in verdict.findings)
         mistake = replace(term_mistake(blamed, blamed.differences[0]), why=WHY_MOMENT)
         return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), sure=True)
+    used = [*(x for x in lines if x.kind == "equation"), *(f.line for f in roots)]
+    names = [x for x in own_names(truth, lines, used) if not x.given][:MOST_NAMES]
     told: list[Mistake] = []
     for f in roots:
-        found = _product(truth, f, names[:MOST_NAMES])
+        found = _product(truth, f, names)
         if found is None:
             return verdict
         sign = found.right == -found.written
@@ -82,6 +82,8 @@ def _left_out(truth: Reference, finding: Finding, findings: Sequence[Finding]) -
     states, given = truth.states, [p.symbol for p in truth.model.parameters if p.symbol not in truth.values]
     exprs = [line.expr, *(truth.expand(truth.put(x.expr)) for x in own), *given[:MOST_LETTERS]]
     wrong, *values = CompiledExpressions(exprs).at(states, truth.accelerations)
+    if not np.isfinite(wrong).all():
+        return None
     named, letters = values[: len(own)], list(zip(given, values[len(own) :], strict=False))
     masses = [(p, x) for p, x in letters if is_mass(truth, p)]
     levers = [(cast("sp.Expr", sp.S.One), np.ones_like(wrong)), *letters]
@@ -91,7 +93,7 @@ def _left_out(truth: Reference, finding: Finding, findings: Sequence[Finding]) -
         for mass, size in masses
         for arm, length in levers
         for sign in (1, -1)
-        if np.isfinite(wrong).all() and _same(wrong, sign * size * length * x)
+        if _same(wrong, sign * size * length * x)
     ]
     return found[0] if len(found) == 1 else None
 
@@ -110,8 +112,8 @@ def _product(truth: Reference, finding: Finding, names: Sequence[OwnName]) -> _P
     if not all(np.isfinite(x).all() for x in (wrong, slope, *values)) or np.ptp(slope) > NEAR * np.abs(slope).max():
         return None
     rest = -wrong / slope  # by what the acceleration that is written is too large
-    own = [(cast("sp.Expr", n.symbol), x) for n, x in zip(names, values, strict=True) if n.key in line.names]
     every = [(cast("sp.Expr", n.symbol), x) for n, x in zip(names, values, strict=True)]
+    own = [pair for pair, n in zip(every, names, strict=True) if n.key in line.names]
     found = {str((p.written, p.right)): p for p in _exchanged(rest, own, every)}
     return next(iter(found.values())) if len(found) == 1 else None
 

@@ -127,8 +127,7 @@ def _with_wrong_shorthand(
 
 def _open(verdict: Verdict) -> list[Finding]:
     """The findings that are wrong and follow from none, but for those of definitions."""
-    wrong = verdict.open_findings
-    return [f for f in wrong if f.line.kind != "definition"]
+    return [f for f in verdict.open_findings if f.line.kind != "definition"]
 
 
 def _in_question(truth: Reference, lines: Sequence[AnsweredLine], first: AnsweredLine) -> Iterator[AnsweredLine]:

@@ -6,6 +6,7 @@ equations may be that of another mistake in which no r is left at all; the sente
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -15,6 +16,8 @@ from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.model import time
 
+LINE = re.compile(r"\b[Ll]ine (?P<number>\d{1,6})\b")
+"""How words name a line of the answer."""
 BEFORE = (
     "is taken as ",
     "are taken as ",

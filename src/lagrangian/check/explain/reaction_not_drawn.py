@@ -46,7 +46,7 @@ def with_reaction(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verd
     Such a line is no equation of motion as a whole: it has the accelerations of some bodies alone.
     """
     on = held(truth) if truth.derivation.multipliers else truth
-    roots = [f for f in verdict.open_findings if f.line.kind == "equation"]
+    roots = verdict.open_equations
     line = next((x for x in lines if roots and place_of(x) == place_of(roots[0].line)), None)
     if on is None or line is None or line.kind != "equation" or not free_bodies(truth).is_of_some(line.expr):
         return None

@@ -32,7 +32,7 @@ def said_in_numbers(truth: Reference, verdict: Verdict) -> Verdict:
     too. Numbers are told as decimals, also in lines with some letters if these have decimals or values are put in.
     """
     judged = [f.line for f in verdict.findings if f.line.kind not in ("definition", "statement")]
-    wrong = [f for f in verdict.findings if f.status is Status.WRONG and any(f.line is x for x in judged)]
+    wrong = [f for f in verdict.findings if f.status is Status.WRONG and f.line.kind not in ("definition", "statement")]
     letters = names_of(truth)
     unlettered = [x for x in judged if letters.isdisjoint(bounded.symbols(x.expr))]
     unlettered = unlettered if in_numbers(truth, unlettered) else []

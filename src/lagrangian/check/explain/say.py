@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, cast
+from typing import cast
 
 import sympy as sp
 
@@ -16,6 +16,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.rates_apart import rates_apart
 from lagrangian.check.explain.rotations_said import OMEGA, inertias, of_rotation, why_omega
+from lagrangian.check.hints import capital, sentence
 from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model, RigidBody, Spring
@@ -293,30 +294,34 @@ def _in_scale(site: Site, factor: sp.Expr | None) -> Site:
 def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, Text]:
     """The words for a multiple of a part: its name, what was done, and that without terms."""
     where = _only(site)
-    whole = _capital(site.words)
-    brief = _capital(site.brief)
+    whole = capital(site.words)
+    brief = capital(site.brief)
     be, have, count = _verbs(site)
     if times == -1:
         name = "term_forgotten" if site.single else "left_out"
-        what = _text(*whole, f" {be} missing", *where, ".")
-        return name, what, _text("Something is missing: ", *site.brief, *where, ".")
+        what = sentence(*whole, f" {be} missing", *where, ".")
+        return name, what, sentence("Something is missing: ", *site.brief, *where, ".")
     if times == -2:
         name = "sign_of_a_term" if site.single else "wrong_sign"
-        hint = _text("There is a wrong sign: ", *site.brief, *where, ".")
-        return name, _text(*_as_written(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
+        hint = sentence("There is a wrong sign: ", *site.brief, *where, ".")
+        return (
+            name,
+            sentence(*_as_written(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."),
+            hint,
+        )
     if times == 1 and site.against:
-        what = _text(*whole, " is left over", *where, ": ", *site.against, " cancels it.")
-        return "left_over", what, _text("Something should cancel: ", *site.brief, *where, ".")
+        what = sentence(*whole, " is left over", *where, ": ", *site.against, " cancels it.")
+        return "left_over", what, sentence("Something should cancel: ", *site.brief, *where, ".")
     number = 1 + times
     name = "factor_of_a_term" if site.single else "wrong_number"
-    hint = _text(*brief, *where, f" {have} a wrong factor.")
+    hint = sentence(*brief, *where, f" {have} a wrong factor.")
     if number in (2, Fraction(1, 2)):
-        return name, _text(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
+        return name, sentence(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
     said = sp.Rational(number.numerator, number.denominator)
     if site.single and isinstance(whole[1], sp.Expr):
-        return name, _text(whole[0], said * whole[1], *whole[2:], " should be ", whole[1], *where, "."), hint
+        return name, sentence(whole[0], said * whole[1], *whole[2:], " should be ", whole[1], *where, "."), hint
     right = f" times what {'they' if be == 'are' else 'it'} should be"
-    return name, _text(*whole, f" {be} ", said, right, *where, "."), hint
+    return name, sentence(*whole, f" {be} ", said, right, *where, "."), hint
 
 
 def _as_written(words: Words, site: Site) -> Words:
@@ -356,8 +361,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
         "times": () if number == 1 else (number, "·"),
         "site": (*site.words, *_only(site)),
         "brief": (*site.brief, *_only(site)),
-        "Site": _capital(site.words),
-        "Brief": _capital(site.brief),
+        "Site": capital(site.words),
+        "Brief": capital(site.brief),
     }
     for key, value in (("right", change.right), ("written", change.written)):
         values[key] = value if isinstance(value, tuple) else (_short(value),) if value is not None else ()
@@ -370,7 +375,7 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):
         parts += values[piece] if k % 2 else [piece] if piece else []
-    return _text(*parts)
+    return sentence(*parts)
 
 
 def _short(value: sp.Expr) -> sp.Expr:
@@ -380,21 +385,3 @@ def _short(value: sp.Expr) -> sp.Expr:
     roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]
     drawn = {f: sp.powdenest(sp.sqrt(sp.factor(bounded.trigsimp(f.base))), force=True) for f in roots}
     return cast("sp.Expr", value.xreplace(drawn))
-
-
-def _text(*parts: str | Left) -> Text:
-    """Text whose neighbouring words are joined."""
-    joined: list[Any] = []
-    for part in parts:
-        if isinstance(part, str) and joined and isinstance(joined[-1], str):
-            joined[-1] += part
-        else:
-            joined.append(part)
-    return text(*_capital(tuple(joined)))
-
-
-def _capital(words: Words) -> Words:
-    """Words that begin a sentence."""
-    if words and isinstance(words[0], str):
-        return (words[0][:1].upper() + words[0][1:], *words[1:])
-    return words

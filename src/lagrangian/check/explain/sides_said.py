@@ -14,7 +14,7 @@ from typing import TypeAlias, cast
 import sympy as sp
 
 from lagrangian.check.terms.sides import LEFT, on_side
-from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
+from lagrangian.check.verdict import IS_MISSING, Finding, Mistake, TermDifference, Verdict
 from lagrangian.page.formula import Left, Verbatim, text
 
 Part: TypeAlias = "str | Left | Verbatim"
@@ -23,17 +23,16 @@ THE_TERM, IN_THE_TERM = "The term ", "In the term "
 """How sentences on a term of an equation begin."""
 TERMS = (THE_TERM, IN_THE_TERM, " stands where ", " should be ", " it should be ")
 """The words before what stands, or should stand, in an equation."""
-MISSING = " is missing"
 EQUATION = " of the equation of "
 ON_LEFT, ON_RIGHT = "on the left-hand side", "on the right-hand side"
 
 
 def with_sides(verdict: Verdict) -> Verdict:
     """The verdict, with the terms of its mistakes as they stand in the wrong equations."""
-    roots = [f for f in verdict.open_findings if f.line.kind == "equation"]
+    roots = verdict.open_equations
     if not roots:
         return verdict
-    if any(f.line.kind != "equation" for f in verdict.open_findings):
+    if len(roots) < len(verdict.open_findings):
         roots = [f for f in roots if f.coordinate is not None]  # a term may stand in an energy and in no equation
     told = tuple(_on_side(m, roots) for m in verdict.mistakes)
     return replace(verdict, mistakes=told, alternatives=tuple(_on_side(m, roots) for m in verdict.alternatives))
@@ -50,7 +49,7 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
         return mistake
     end = next((k for k, x in enumerate(parts) if isinstance(x, str) and (". " in x or x.endswith("."))), len(parts))
     after = "".join(x for x in parts[2 : end + 1] if isinstance(x, str))
-    written = sp.S.Zero if MISSING in after and begins == THE_TERM else parts[1]
+    written = sp.S.Zero if IS_MISSING in after and begins == THE_TERM else parts[1]
     line = own[0].line
     side, said = on_side(line, TermDifference("", parts[1], written, coordinate))
     inside, named = begins == IN_THE_TERM, EQUATION in after

@@ -22,7 +22,7 @@ from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.terms.pieces import partner
-from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
 
@@ -53,8 +53,6 @@ BESIDE = (NOT, " is not ", " should be ", " stands where ")
 """What stands between what is written and what belongs there, in either order."""
 EITHER = " or "
 """What stands between the names of several equal bodies in one of which a mistake is."""
-MISSING = " is missing."
-"""How words end that miss something."""
 _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
 """How words begin that blame a line."""
 _OF_ENERGY = re.compile(r"\b(?:in V|energy|height|position)\b")
@@ -166,7 +164,7 @@ def _of_lagrangian(mistake: Mistake, verdict: Verdict) -> Mistake:
 def _is_there(mistake: Mistake, verdict: Verdict) -> bool:
     """Whether a letter is said to be missing that stands in a constant term of the wrong V or ℒ, as ½ k s₀² without
     the double product of (s − s₀)²."""
-    lacking = str(mistake.what).endswith(MISSING)
+    lacking = str(mistake.what).endswith(f"{IS_MISSING}.")
     letters = {x for x in mistake.what.parts if isinstance(x, sp.Symbol)} if lacking else set[sp.Symbol]()
     wrong = [f.line for f in verdict.open_findings if f.line.kind in ("V", "L")]
     terms = (x for line in wrong for x in sp.Add.make_args(bounded.expand(line.expr)))

@@ -8,18 +8,16 @@ J φ̈ = τ + F R − S r                         where S has a wrong sign, that
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 from lagrangian.check.explain.after_own_rates import slip_in_own_rate
-from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.quoted import LINE, letters_in
 from lagrangian.check.explain.terms_alone import LEFT_OVER, MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, Finding, Mistake, Status, TermDifference, Verdict
 
 KINDS = ("p", *DERIVED)
 """The lines that are compared term by term with what belongs there."""
-_LINE = re.compile(r"\b[Ll]ine (?P<number>\d{1,6})\b")
 BLAMES = "Line "
 """How words begin on a definition, of which more may follow than is found."""
 
@@ -71,7 +69,7 @@ def _with_rates(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict with the one term that is wrong in a rate of which no mistake speaks, ÿ = …, before what is told of
     the lines below it."""
     told = list(verdict.mistakes)
-    numbers = [int(x["number"]) for m in told if (x := _LINE.search(str(m.what))) is not None]
+    numbers = [int(x["number"]) for m in told if (x := LINE.search(str(m.what))) is not None]
     for f in verdict.open_findings:
         if f.line.kind != "identity" or not numbers or any(f.line.number >= k for k in numbers):
             continue

@@ -209,10 +209,11 @@ def _untrue(
     sizes = {abs(x.number) for x in stated}
     factors = [n for n in numbers if not any(_same(n.size, x) for x in (*sizes, *map(abs, values.values())))]
     loose = sum(n.unit / n.size for n in factors if n.size >= FEWEST_OF_FACTORS * n.unit) / 2
+    relative = EXACT + loose if numbers and not _of_angle(said) else ROUNDED
     above: float | None = None
     for x in stated:
         digits = next((n for n in numbers if _same(n.size, abs(x.number))), None)
-        near = (EXACT + loose if numbers and not _of_angle(said) else ROUNDED) * abs(x.meant)
+        near = relative * abs(x.meant)
         if digits is not None:
             near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         near = max(near, EXACT * x.scale) if x.number == 0 else near
