@@ -7,7 +7,7 @@ import re
 from lagrangian.check.reading.traced_text import TracedText
 
 _INTERVAL = re.compile(
-    r"[ \t]*(?:\\in(?![A-Za-z])|∈)[ \t]*(?:\\left[ \t]?)?[\[\](][^\[\]=\n;$]{1,60}?[,;][^\[\]=\n$]{1,60}?"
+    r"(?<![ \t])[ \t]*+(?:\\in(?![A-Za-z])|∈)[ \t]*+(?:\\left[ \t]?)?[\[\](][^\[\]=\n;$]{1,60}?[,;][^\[\]=\n$]{1,60}?"
     r"(?:\\right[ \t]?)?[\[\])](?=[ \t]*(?:[$.,;:)]|\\|$|[^\W\d_]{2}))",
     re.MULTILINE,
 )

@@ -32,7 +32,7 @@ _SUM = re.compile(
 )
 """A quantity as the sum of its value at rest, of the same letter, and its deviation."""
 _OF_INPUT = re.compile(
-    rf"{_BEGINS}(?P<of>{_LETTER})[ \t]*&?=[ \t]*(?P<rest>[\w\\{{}}() *·/^,]{{1,80}}?)[ \t]*\+[ \t]*"
+    rf"{_BEGINS}(?P<of>{_LETTER})[ \t]*+&?=[ \t]*+(?P<rest>[\w\\{{}}() *·/^,]{{1,80}}?)[ \t]*+\+[ \t]*+"
     rf"(?P<more>{_MORE}){_ENDS}"
 )
 """An input as the sum of what it is at rest and its deviation."""

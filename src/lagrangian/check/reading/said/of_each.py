@@ -23,7 +23,7 @@ _LABELLED = re.compile(
 )
 """A line that begins with a word or some and a colon."""
 _GIVEN = re.compile(
-    rf"(?:^|[,;]|[ \t]{{2}}|\b(?:and|und|with|mit))[ \t]*(?P<name>{WORD_LETTER}{INNER}{{0,7}}+)"
+    rf"(?:^|[,;]|(?<![ \t])[ \t]{{2}}|\b(?:and|und|with|mit))[ \t]*+(?P<name>{WORD_LETTER}{INNER}{{0,7}}+)"
     r"(?P<mark>['’′]{1,2}|²|\^2)?[ \t]*=(?![=>])"
 )
 
