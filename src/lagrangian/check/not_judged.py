@@ -9,8 +9,9 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.row_words import is_of_numbers
+from lagrangian.check.lines import lines_of
 from lagrangian.check.reading import Answer, AnswerLine
-from lagrangian.check.verdict import AnsweredLine, Finding, Verdict
+from lagrangian.check.verdict import IS_MISSING, AnsweredLine, Finding, Status, Verdict
 from lagrangian.model import Model
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key, undotted
@@ -57,7 +58,21 @@ class Unjudged:
     partly: tuple[int, ...] = ()
 
 
-def without_a_row(lines: Sequence[AnsweredLine], verdict: Verdict) -> list[Text]:
+def rows_left(model: Model, answer: Answer, verdict: Verdict, *, whole: bool) -> list[Text]:
+    """What to say of what has no verdict: the values of a name that has several, and, where all was judged (``whole``)
+    and something is wrong, the coordinates for which there is no equation among those for others."""
+    lines = [x for x in verdict.findings if x.line.kind in ("equation", "left")]
+    named = [f.coordinate for f in lines]
+    told = _without_a_row(lines_of(answer), verdict)
+    if not whole or verdict.status is not Status.WRONG or model.constraints or verdict.change or verdict.motion:
+        return told
+    lacking = [c for c in model.coordinates if c.name not in named]
+    if not lines or None in named or len(named) + len(lacking) != len(model.coordinates):
+        return told
+    return told + [text("The equation of ", c.symbol, f"{IS_MISSING}.") for c in lacking]
+
+
+def _without_a_row(lines: Sequence[AnsweredLine], verdict: Verdict) -> list[Text]:
     """What to say of the values of a name that has several, v² = … of one body and of another, of which some alone were
     judged."""
     rows = {(f.line.number, f.line.text) for f in verdict.findings}

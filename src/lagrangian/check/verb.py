@@ -40,7 +40,7 @@ from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
-from lagrangian.check.not_judged import unjudged_above, without_a_row
+from lagrangian.check.not_judged import rows_left, unjudged_above
 from lagrangian.check.parts_above import with_parts_above
 from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.check.readings_compared import (
@@ -171,7 +171,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
             verdict = found if wrong else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
-    told = _told(verdict, answer) if read else verdict
+    told = _told(derivation, verdict, answer) if read else verdict
     return CheckedAnswer(**vars(told), model=derivation.model)
 
 
@@ -189,7 +189,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     if likely is not answer and not likely.others and len(own) == 1 and (verdict.right or is_of_others(verdict)):
         quick = verdict if verdict.right else check.check(derivation, decides.lines, hint=hint, explain=False)
         if quick.right:
-            return _told(_apart(derivation, answer, quick), answer, decides.notes)
+            return _told(derivation, _apart(derivation, answer, quick), answer, decides.notes)
     answer = likely
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
@@ -222,7 +222,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
     )
     told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
-    return _told(_apart(derivation, answer, fitting(told)), answer, decides.notes)
+    return _told(derivation, _apart(derivation, answer, fitting(told)), answer, decides.notes)
 
 
 def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:
@@ -239,7 +239,7 @@ def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], h
             if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
                 if not other.program and (computed := _contradicting(derivation, answer)) is not None:
                     return _of_readings(derivation, computed, hint)
-                return _told(_apart(derivation, other, verdict), other, decides.notes)
+                return _told(derivation, _apart(derivation, other, verdict), other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= wrong_together(verdict) if other is answer and decides.together else set()
     return None
@@ -383,7 +383,7 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     return [*whole, replace(fewer, notes=(*told, *fewer.notes))]
 
 
-def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
+def _told(derivation: Derived, verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
     """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged, and
     for energies without a value in lines that are judged by another side, p = ∂L/∂x' = m x'."""
     why = ("nothing else uses ", "no equation uses this matrix ", "it is an expression without an equals sign")
@@ -392,8 +392,8 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
     named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
-    notes = [note for note in notes if str(note) not in named] + without_a_row(check.lines_of(answer), verdict)
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
+    notes = [x for x in notes if str(x) not in named] + rows_left(derivation.model, answer, verdict, whole=not unjudged)
     verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
