@@ -15,6 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.reading.carried_out.altered import altered_by, is_doubtful, mutable
 from lagrangian.check.reading.carried_out.calling import Calling
 from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
+from lagrangian.check.reading.carried_out.given_values import GivenValues
 from lagrangian.check.reading.carried_out.made_of import MadeOf, given_in
 from lagrangian.check.reading.carried_out.matlab import UNREAD
 from lagrangian.check.reading.carried_out.mechanics import Mass
@@ -61,6 +62,7 @@ class Interpreter(Calling):
     """The one input of the system that a program does not name."""
     said: Set[str] = frozenset()
     """The names of parameters of the system in the program, as its comments say: Mc = M."""
+    values: GivenValues = field(default_factory=GivenValues)
     behind: Mapping[int, str] = field(default_factory=dict)
     """The comments behind statements, by their lines."""
     read_as: dict[str, str] = field(default_factory=dict)
@@ -296,9 +298,10 @@ class Interpreter(Calling):
             given = given or (
                 isinstance(value, sp.Expr) and value.free_symbols <= {TIME} and not value.atoms(AppliedUndef)
             )
-            if isinstance(value, sp.Expr) and given and (self.known(target.id) or target.id in self.said):
-                value = sp.Symbol(target.id)
-            elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
+            known = self.known(target.id)
+            if isinstance(value, sp.Expr) and given and (known or target.id in self.said):
+                value = sp.Symbol(target.id) if self.values.stands_for(target.id, value) else value
+            elif isinstance(value, sp.Expr) and value.is_number and not known:
                 value = self._of_value(value, target.id, line)
             names[target.id] = value = self._table(value, line)
             if isinstance(value, sp.Symbol) and "[" in value.name:

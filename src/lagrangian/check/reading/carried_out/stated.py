@@ -17,6 +17,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.added_up import pieces
 from lagrangian.check.reading.carried_out.closed_loops import OpenInterpreter, inputs_named, names_in
+from lagrangian.check.reading.carried_out.given_values import given_values
 from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
@@ -160,7 +161,7 @@ def _interpreter(
     named = {y for x in names_in(tree) for y in scope.meanings(x)[0]}
     free = [u.name for u in model.inputs if u.name not in named]
     given |= {"valued": [p for p in model.parameters if p.name not in named], "states": 2 * len(model.coordinates)}
-    given |= {"driven": free[0] if len(free) == 1 else None}
+    given |= {"driven": free[0] if len(free) == 1 else None, "values": given_values(names_in(tree), model, scope)}
     if opened:
         return OpenInterpreter(inputs=inputs_named(tree, scope, model), **given)
     return Interpreter(**given) if marks is None else MarkingInterpreter(marks=marks, **given)
@@ -171,6 +172,7 @@ def _notes(run: Interpreter) -> Iterator[str]:
     if run.drives is not None and run.driven is not None:
         yield told(f"{run.drives}(t)", run.driven)
     yield from (told(name, of) for name, of in run.read_as.items())
+    yield from run.values.notes()
     yield from (_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
 
 
