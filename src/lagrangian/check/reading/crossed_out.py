@@ -134,7 +134,7 @@ def _anew(text: str, match: re.Match[str], start: int, end: int) -> tuple[tuple[
     moving = _accelerating(text[start:end])
     lines = [(a, _end(text, a)) for a in _starts(text, match.start())]
     alike = [x for x in lines if moving and "=" in text[slice(*x)] and _accelerating(text[slice(*x)]) == moving]
-    of = re.search(r"\d{1,2}|\b[ivx]{1,4}\b|\b[a-h]\b", match.groupdict().get("of") or "")
+    of = re.search(r"\d{1,2}|\b[ivx]{1,4}\b|\b[a-h]\b", match["of"] or "")
     if of is not None:
         numbered = rf"[ \t]*(?:(?:line|eq\w*|equation|zeile|gl\w*)\.?[ ]?)?[(\[]?{of.group()}[)\].:]"
         alike = [x for x in alike if re.match(numbered, text[slice(*x)], re.IGNORECASE)]

@@ -59,7 +59,7 @@ MOST_MATRICES = 60
 _AMPERSAND, _SEMICOLON, _WIDE = re.compile(r"(?<!\\)&"), re.compile(";"), re.compile(r"[ \t]{2,}")
 
 _IN_LATEX = re.compile(
-    r"\\begin\{(?P<kind>[bpBvV]?matrix|smallmatrix)\}(?P<inside>[^{}\\]*+(?:(?!\\(?:begin|end)\{)[\\{}][^{}\\]*+)*+)\\end\{"
+    r"\\begin\{(?:[bpBvV]?matrix|smallmatrix)\}(?P<inside>[^{}\\]*+(?:(?!\\(?:begin|end)\{)[\\{}][^{}\\]*+)*+)\\end\{"
 )
 _MIRRORED = re.compile(
     r"[*∗⋆★]|\\(?:ast|star)|\\(?:text|mathrm|mbox)\s?\{[ ]?symm?(?:\.|etric|etrisch)?[ ]?\}|symm?(?:\.|etric|etrisch)?",

@@ -31,7 +31,7 @@ _UNIT = (
 _FACTOR = r"(?:(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s|1)(?![A-Za-z_\d])(?:²|³|\^-?\d|⁻[¹²³])?|[()])"
 _PRODUCT = rf"{_FACTOR}(?:[ ]{{0,2}}+(?:[·*/⋅][ ]{{0,2}}+)?+{_FACTOR}){{0,16}}+"
 _EQUATED = re.compile(
-    rf"(?:(?P<gap>[ \t]{{2,150}}+)|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
+    rf"(?:[ \t]{{2,150}}+|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
     rf"(?P<units>{_PRODUCT}(?:[ ]?=[ ]?{_PRODUCT}){{1,3}})(?(open)[ ]?\])"
     r"(?=[ \t]{0,20}(?:ok|OK|okay|passt|[✓✔☑])?[ \t.,]{0,20}$)",
     re.MULTILINE,

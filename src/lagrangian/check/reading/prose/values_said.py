@@ -57,7 +57,6 @@ _DOT = re.compile(
     r"(?P<index>_(?:\w|\{\w{1,8}\}))?"
 )
 _TEX = re.compile(r"\\(?:[,;:! ]|left|right|big)|[\\${}&`*]")
-_SENTENCE = re.compile(r"[.;!?]\s")
 _STEADY = re.compile(
     r"\b(?:const(?:ant)?|steady|uniform(?:ly)?|konstant\w{0,2}|stationär\w{0,2}|gleichförmig\w{0,2}|constante?s?|"
     r"unaccelerated)\b",

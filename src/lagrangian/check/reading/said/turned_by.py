@@ -27,7 +27,7 @@ _TURNS = re.compile(
     r"(?:turns|rotates|moves|rises|sinks|travels|advances|rolls|dreht[ ]sich|dreht|bewegt[ ]sich|tourne"
     r"|(?:has|have)[ ](?:then[ ])?(?:turned|rotated|moved|risen|sunk|travelled|traveled|advanced|rolled))"
     r"(?:[ ](?:by|with|through|um|mit|de))?[ ]"
-    r"(?P<said>[^()=.,;:\n]{1,80}(?=[ ]?(?P<close>\.?\)|[.,;:](?=\s|\Z)|\n|\Z)))",
+    r"(?P<said>[^()=.,;:\n]{1,80}(?=[ ]?(?:\.?\)|[.,;:](?=\s|\Z)|\n|\Z)))",
     re.IGNORECASE,
 )
 _PART = re.compile(rf"[ ]?(?:(?P<name>{_NAME})|\d{{1,3}}|[/*·$]|\\[,; ])")
