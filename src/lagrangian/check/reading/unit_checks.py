@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart, line_end
 
 _SAID = re.compile(
     r"^[^\w\n]{0,6}(?:\d{1,2}[.)][ \t]*)?(?:(?:check|checking|kontrolle|probe)[ \t]+(?:(?:of|the|der)[ \t]+){0,2})?"
@@ -91,7 +91,7 @@ def _equated(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
         above = text[:start].rstrip().rpartition("\n")[2][-1:]
         goes_on = _SIGNED.match(before) is not None or above in "+-−*·/="
         at = match.start() if match["open"] or "=" in before or goes_on else start
-        yield at, text.find("\n", match.end()) % (len(text) + 1) if at == start else match.end(), ""
+        yield at, line_end(text, match.end()) if at == start else match.end(), ""
 
 
 def _ends_in_units(part: str, taken: Callable[[str], bool]) -> bool:
