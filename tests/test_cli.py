@@ -161,7 +161,7 @@ def test_a_reader_that_goes_away_is_no_traceback() -> None:
 
 
 @pytest.mark.slow
-def test_output_is_utf8_wherever_it_goes(tmp_path: pathlib.Path) -> None:
+def test_output_is_utf8_wherever_it_goes() -> None:
     done = subprocess.run(
         [sys.executable, "-m", "lagrangian", "schema"],
         capture_output=True,

@@ -10,11 +10,11 @@ import lagrangian as lg
 
 
 @cache
-def mass() -> lg.Derivation:
+def mass(**values: str) -> lg.Derivation:
     """A mass on a spring and a damper that an input pushes."""
     s = lg.System("mass on a spring")
     x = s.coordinate("x")
-    m, k, b = s.parameters("m k b")
+    m, k, b = s.parameters("m k b", **values)
     s.particle(m, at=s.point("C", (x, 0)), name="mass")
     s.spring(k, deflection=x)
     s.damper(b, deflection=x)
@@ -36,11 +36,11 @@ def rod() -> lg.Derivation:
 
 
 @cache
-def rack() -> lg.Derivation:
+def rack(**values: float) -> lg.Derivation:
     """A rack on a spring that is relaxed at x = d, which a motor moves by a pinion."""
     s = lg.System("rack and pinion")
     x = s.coordinate("x")
-    m, J, R, k, d = s.parameters("m J R k d")
+    m, J, R, k, d = s.parameters("m J R k d", **values)
     s.particle(m, at=s.point("C", (x, 0)), name="rack")
     s.kinetic(J * (x.diff() / R) ** 2 / 2, name="pinion")
     s.spring(k, deflection=x, rest=d, name="spring")

@@ -27,7 +27,7 @@ def carts() -> lg.Derivation:
 
 
 @pytest.mark.parametrize("second", ["file_b.txt", "onlinetext_b.txt"])
-def test_a_participant_has_one_answer_with_and_without_a_list(tmp_path: Path, second: str) -> None:
+def test_a_participant_has_one_answer_with_and_without_a_list(second: str) -> None:
     answers = {f"{MOODLE}file_a.txt": WHOLE, f"{MOODLE}{second}": RELATIVE}
     with pytest.raises(Error, match=r"both .*answers of Anna Lee") as told:
         carts().check_class(answers, points={"V": 2})

@@ -31,6 +31,7 @@ V = "1/2*k*x2r^2"
 def test_what_stands_below_is_judged_by_itself(answer: str) -> None:
     checked = derivation("lecture-3b").check(answer)
     assert all(f.status.right and f.line.kind in ("V", "Xi") for f in checked.findings), checked.to_text()
+    assert any(f.line.kind == "V" for f in checked.findings)
     assert "it has no right-hand side" in " ".join(checked.to_text().split())
 
 

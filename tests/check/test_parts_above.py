@@ -28,7 +28,7 @@ def first(system: object, answer: str) -> tuple[int, str]:
     ],
 )
 def test_work_and_power(above: str, force: str, line: int) -> None:
-    number, said = first(winch(), f"{RIGHT_T}{above}Ξ_φ = {force}\n{LEFT.replace('+ c φ_', '')} = {force} + c φ'")
+    number, said = first(winch(), f"{RIGHT_T}{above}Ξ_φ = {force}\n{LEFT} = {force} + c φ'")
     assert number == line and f"Look at line {line}" in said
     assert f"because of line {line}" in said
 

@@ -10,12 +10,8 @@ and, for the numbers, a rack on a spring that a motor moves by a pinion: (m + J/
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-from small_systems import rod
-
-from lagrangian import Derivation, System
+from small_systems import rack, rod
 
 ALONG = "m r'' - m r phi'^2 + k (r - a) = 0"
 ROUND = "(J + m r^2) phi'' + 2 m r r' phi' = M"
@@ -151,29 +147,17 @@ def test_the_head_of_a_table_says_of_which_coordinate_its_columns_are(head: str)
     assert not accepted(f"{table.replace('k (r - a)', 'k (r + a)')}\n{ROWS}")
 
 
-@cache
-def rack() -> Derivation:
-    """A rack on a spring that is relaxed at x = d, which a motor moves by a pinion, with values."""
-    s = System("rack and pinion")
-    x = s.coordinate("x")
-    m, J, R, k, d = s.parameters("m J R k d", m=12, J=0.3, R=0.5, k=300, d=0.2)
-    s.particle(m, at=s.point("C", (x, 0)), name="rack")
-    s.kinetic(J * (x.diff() / R) ** 2 / 2, name="pinion")
-    s.spring(k, deflection=x, rest=d, name="spring")
-    s.force(s.input("M"), deflection=x / R, name="motor")
-    return s.derive()
-
-
 @pytest.mark.parametrize(
     "list_of", ["m + J/R² = 13.2, J/R² = 0.3/0.25 (in kg)", "J/R² = 1.2\n250 R = 125", "k d = 60, 250 R = 125"]
 )
 def test_amounts_in_front_of_equations_in_numbers(list_of: str) -> None:
     row = "13.2 x'' + 300 x - 60 = M/0.5"
-    verdict = rack().check(f"{list_of}\n{row}")
+    rack_of = rack(m=12, J=0.3, R=0.5, k=300, d=0.2)
+    verdict = rack_of.check(f"{list_of}\n{row}")
     assert verdict.right, verdict.to_text()
-    assert not rack().check(f"{list_of}\n{row.replace('13.2', '12.2')}").right
+    assert not rack_of.check(f"{list_of}\n{row.replace('13.2', '12.2')}").right
     for number in ("= 0.3/0.25", "= 1.2", "= 60", "= 125"):
-        assert number not in list_of or not rack().check(f"{list_of.replace(number, '= 3.4')}\n{row}").right
+        assert number not in list_of or not rack_of.check(f"{list_of.replace(number, '= 3.4')}\n{row}").right
 
 
 CART = """M = [ m   0 ]
@@ -190,7 +174,6 @@ h = [ m r φ'² - k (r - a) ; M_0 - 2 m r r' φ' ] =: [ h1 ; h2 ]
 )
 def test_determinants_and_inverses_of_matrices(rows: str) -> None:
     text = f"{CART}{rows}".replace("M_0", "M").replace("M =", "A =").replace("det M", "det A").replace("M⁻¹", "A⁻¹")
-    text = text.replace("    [ 0   J", "    [ 0   J")
     assert accepted(text)
     assert not accepted(text.replace("det A = m (J +", "det A = m (J -"))
     assert not accepted(text.replace("[ 0          m ]", "[ 0        2 m ]"))

@@ -184,7 +184,7 @@ def test_a_paragraph_of_html_is_one_line() -> None:
 
 @pytest.mark.parametrize("said", ["Only the angular velocity w = theta' appears.", "Only the speed w = θ̇ appears."])
 def test_a_verb_behind_a_value_is_no_factor(said: str) -> None:
-    rows = f"{said}\n{CART.replace(chr(34), '')}\n(J + m l^2) w' + m l x'' cos theta - m g l sin theta = 0"
+    rows = f"{said}\n{CART}\n(J + m l^2) w' + m l x'' cos theta - m g l sin theta = 0"
     assert right(rows)
     assert not right(rows.replace("- m g", "+ m g"))
 

@@ -85,7 +85,7 @@ def test_what_is_printed_of_all_examples_is_right(turn: int, name: str) -> None:
         assert is_right(judged(own, text)), (what, text)
 
 
-def test_verification_reads_the_pages_back_and_notices_a_fraction_turned_over(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_verification_reads_the_pages_back_and_notices_a_fraction_turned_over() -> None:
     own = derivation("duffing")
     pages = {"text": own.to_text(brief=True), "LaTeX": own.to_latex(brief=True)}
     assert [c.holds for c in printed_checks(own, pages)] == [True, True]

@@ -163,7 +163,7 @@ def test_symplectic_methods_are_refused():
 
 
 @pytest.mark.slow
-def test_ensembles_and_sweeps_are_projected(tmp_path):
+def test_ensembles_and_sweeps_are_projected():
     theta = np.linspace(0.3, 2.0, 9)
     runs = SYSTEM.ensemble(5.0, x=np.sin(theta), y=-np.cos(theta), reduce=None, times=51)
     assert abs(np.hypot(runs["x"], runs["y"]) - 1).max() < 5e-15

@@ -19,14 +19,6 @@ AXES = {
 }
 """The directions along the fixed axes of the plane."""
 
-OPPOSITES = {
-    "to the right": "to the left",
-    "upward": "downward",
-    "counter-clockwise": "clockwise",
-}
-OPPOSITES |= {other: one for one, other in OPPOSITES.items()}
-
-
 WORDS = (
     ("to the right", "to the left"),
     ("rightward", "leftward"),
@@ -38,6 +30,8 @@ WORDS = (
 """Words for directions, with their opposites; some may end in s."""
 
 _TURNED = {one: other for a, b in WORDS for one, other in ((a, b), (b, a))} | {"counterclockwise": "clockwise"}
+_SENSES = frozenset([*AXES.values(), "counter-clockwise", "clockwise"])
+"""The directions that the geometry tells."""
 _DIRECTION = re.compile(
     r"(?<!straight )(?<!hanging )(?<!pointing )\b(?:(to the right|to the left|counter-?clockwise|clockwise"
     r"|(?:down|up|for|back|right|left)ward)(s?)|(down|up)(?= the \w+| from |$|[,;]))\b"
@@ -61,7 +55,7 @@ def turned_words(words: str, sense: str | None = None) -> str | None:
     (one,) = found
     word = one[1] or one[3]
     fixed = {"up": "upward", "down": "downward"}.get(word, word)
-    if sense is not None and fixed in OPPOSITES and fixed != sense and " the " not in words[one.end() : one.end() + 5]:
+    if sense is not None and fixed in _SENSES and fixed != sense and " the " not in words[one.end() : one.end() + 5]:
         return None
     return f"{words[: one.start()]}{_TURNED[word]}{one[2] or ''}{words[one.end() :]}"
 
@@ -73,7 +67,7 @@ def says_direction(words: str) -> bool:
 
 def turned_round(sense: str) -> str:
     """Return the opposite direction."""
-    return OPPOSITES[sense]
+    return _TURNED[sense]
 
 
 def positive_sense(model: Model, coordinate: Coordinate) -> str | None:

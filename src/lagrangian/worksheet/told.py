@@ -93,7 +93,7 @@ def _values(element: Element) -> list[sp.Expr]:
 
 
 def _symbols(expr: sp.Expr) -> set[Any]:
-    return (expr.free_symbols | expr.atoms(sp.core.function.AppliedUndef)) - {time}
+    return bounded.letters(expr) - {time}
 
 
 def named_by_words(model: Model, element: Element) -> bool:

@@ -136,18 +136,23 @@ class _Search:
         return f"{tried} {' or '.join(why)}"
 
 
+def _equations(model: Model) -> tuple[sp.Eq, ...]:
+    """The equations of a model, which is derived once."""
+    return model.remembered("equations", lambda: derive(model).equations)
+
+
 def _alone(model: Model) -> int:
     """The number of coordinates that nothing but their own inertia concerns, no spring, force, gravity or neighbour."""
     names = {n for e in model.elements if isinstance(e, (*MOVABLE, Gravity)) for n in letters_of(e)}
     said = {x.symbol for x in (*model.parameters, *model.inputs) if x.name in names}
     own = {c.symbol for c in model.coordinates}
-    found = [bounded.letters(e.lhs) | bounded.letters(e.rhs) for e in derive(model).equations]
+    found = [bounded.letters(e.lhs) | bounded.letters(e.rhs) for e in _equations(model)]
     return sum(not letters & said and len(letters & own) == 1 for letters in found)
 
 
 def _doubled(model: Model) -> int:
     """The number of pairs of inputs that act at the same place, so that one of them would be enough."""
-    sides = [e.lhs - e.rhs for e in derive(model).equations]  # type: ignore[operator]
+    sides = [e.lhs - e.rhs for e in _equations(model)]  # type: ignore[operator]
     rows = [[bounded.diff(side, u.symbol) for side in sides] for u in model.inputs]
     return sum(
         any(all(bounded.expand(a + sign * b) == 0 for a, b in zip(one, other, strict=True)) for sign in (1, -1))
@@ -157,7 +162,7 @@ def _doubled(model: Model) -> int:
 
 def _letters(model: Model) -> set[Any]:
     """The parameters and inputs in the equations."""
-    found = {s for e in derive(model).equations for side in (e.lhs, e.rhs) for s in bounded.letters(side)}
+    found = {s for e in _equations(model) for side in (e.lhs, e.rhs) for s in bounded.letters(side)}
     return found & {x.symbol for x in (*model.parameters, *model.inputs)}
 
 
@@ -202,7 +207,7 @@ def _tried(make: Any) -> Model | None:
     try:
         made: Model = make()
         check_dimensions(made)
-        derive(made)
+        _equations(made)
         return made
     except Error:
         return None
@@ -210,7 +215,7 @@ def _tried(make: Any) -> Model | None:
 
 def _size(model: Model) -> int:
     """The operations of the equations."""
-    return sum(bounded.operations(e) for e in derive(model).equations)
+    return sum(bounded.operations(e) for e in _equations(model))
 
 
 def _undrawn(model: Model) -> int:
@@ -223,7 +228,7 @@ def _undrawn(model: Model) -> int:
 
 def _alike(one: Model, other: Model) -> bool:
     """Whether two models with the same letters have the same equations, but for signs."""
-    pairs = zip(derive(one).equations, derive(other).equations, strict=True)
+    pairs = zip(_equations(one), _equations(other), strict=True)
     return all(_equal(a.lhs - a.rhs, b.lhs - b.rhs) for a, b in pairs)  # type: ignore[operator]
 
 

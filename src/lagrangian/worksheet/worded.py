@@ -70,7 +70,7 @@ class Claim:
 
 def number(expr: sp.Expr, values: Mapping[Any, float]) -> float | None:
     """The value of an expression, or None if one of its letters has none."""
-    if not bounded.symbols(expr) <= set(values) or bounded.atoms(expr, sp.core.function.AppliedUndef):
+    if not bounded.letters(expr) <= set(values):
         return None
     found: sp.Expr = sp.N(expr.xreplace({s: sp.Float(values[s]) for s in bounded.symbols(expr)}))
     return float(found) if found.is_real and found.is_finite else None
@@ -240,24 +240,21 @@ def values_of(model: Model) -> dict[Any, float]:
 
 def still_true(model: Model, parameter: Parameter | None, description: str, values: Mapping[Any, float]) -> str:
     """A description without the parts that other values of the parameters make untrue."""
-    kept = (p for p in parts_of(description) if not _untrue(model, parameter, p, values))
-    return "".join(kept).lstrip(",;: ")
-
-
-def _untrue(model: Model, parameter: Parameter | None, part: str, values: Mapping[Any, float]) -> bool:
     old = values_of(model)
-    changed = {s: v for s, v in old.items() if values.get(s) != v}
-    if not changed:
-        return False
-    for claim in claims(model, parameter, part):
-        before, now = claim.holds(old), claim.holds(values)
-        if now is False and (before or not claim.loose):
+    changed = [v for s, v in old.items() if values.get(s) != v]
+
+    def untrue(part: str) -> bool:
+        for claim in claims(model, parameter, part):
+            before, now = claim.holds(old), claim.holds(values)
+            if now is False and (before or not claim.loose):
+                return True
+        if parameter is not None and _LIKEWISE.search(part) and _follows_a_claim(model, parameter):
             return True
-    if parameter is not None and _LIKEWISE.search(part) and _follows_a_claim(model, parameter):
-        return True
-    if "=" in part and _a_number(model, part):
-        return True
-    return any(_is_quantity(q, changed) for q in _QUANTITY.findall(part))
+        if "=" in part and _a_number(model, part):
+            return True
+        return any(_is_quantity(q, changed) for q in _QUANTITY.findall(part))
+
+    return "".join(p for p in parts_of(description) if not changed or not untrue(p)).lstrip(",;: ")
 
 
 def _a_number(model: Model, part: str) -> bool:
@@ -268,13 +265,13 @@ def _a_number(model: Model, part: str) -> bool:
     return False
 
 
-def _is_quantity(words: str, changed: Mapping[Any, float]) -> bool:
+def _is_quantity(words: str, changed: Sequence[float]) -> bool:
     """Whether a quantity such as 2 m is the old value of a letter that has another value now."""
     try:
         value = parse_quantity(words).value
     except Error:
         return False
-    return any(abs(value - old) <= 1e-9 * abs(old) for old in changed.values())
+    return any(abs(value - old) <= 1e-9 * abs(old) for old in changed)
 
 
 def _follows_a_claim(model: Model, parameter: Parameter) -> bool:

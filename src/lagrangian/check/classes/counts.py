@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from lagrangian.check.classes.rows import ClassRow
+from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.verdict import Status
 from lagrangian.check.words import step_title
 from lagrangian.records import dataclass
@@ -81,13 +82,12 @@ def _mistakes(rows: Sequence[ClassRow]) -> list[ClassCount]:
 
 _WHERE = re.compile(r" in (?:T\*|V|L)(?=[ .,:]|\Z)")
 """In which energy a mistake was made, which is said only where one is stated: it is the same mistake without."""
-_REASON = "A possible reason: "
 
 
 def _words(mistake: dict[str, Any], hint: int) -> str:
     """What is said after "7 of 31": the mistake without the term, which differs from answer to answer, if it is known
     so."""
-    what = mistake["what"].rpartition(_REASON)[2]
+    what = mistake["what"].rpartition(REASON.lstrip())[2]
     said = (mistake["brief"] or what) if hint >= 3 else mistake["hinted"]
     return f": {said.rstrip('.')} (step {mistake['step']})"
 

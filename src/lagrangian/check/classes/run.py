@@ -211,12 +211,9 @@ class _ClassRun:
         if count > 1 and (model := self._written()) is not None:
             yield from judged_by_processes(model, self.judging, tasks, count)
             return
-        judge = self._judge()
+        judge = Judge(self.derivation or derive_in_form(self.model), self.judging)
         for k, file, content in tasks:
             yield k, judge.judge(file, content), True
-
-    def _judge(self) -> Judge:
-        return Judge(self.derivation or derive_in_form(self.model), self.judging)
 
     def _written(self) -> str | None:
         """The text of the model for other processes; None if it cannot be written and one process was not excluded."""

@@ -73,9 +73,11 @@ FEWEST_WORDS = 2
 def _with_typed_dots(text: str) -> str:
     r"""A text in words whose only commands of LaTeX are dots, letters and signs of products, without marks around
     its mathematics, with primes and letters for them: (1) becomes J \ddot θ = M."""
+    if "$" in text or ("\\dot" not in text and "\\ddot" not in text):
+        return text
     commands = set(_COMMAND.findall(text))
     spoken = [x for x in _SPOKEN.findall(text) if x.lower() not in _LETTERS]
-    if not commands & {"dot", "ddot"} or "$" in text or len(spoken) < FEWEST_WORDS:
+    if not commands & {"dot", "ddot"} or len(spoken) < FEWEST_WORDS:
         return text
     if not all(x in _TYPED or x in ("dot", "ddot") or x in _LETTERS for x in commands):
         return text

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from itertools import islice
 
 from lagrangian.check.reading.latex.layout import closing
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, line_end
 from lagrangian.read.letters import key
 
 _BETWEEN = re.compile(r"~~(?=[^\s~])[^~\n]{1,1000}~~|<(?P<tag>s|del|strike)>[^<>\n]{1,1000}</(?P=tag)>", re.IGNORECASE)
@@ -111,10 +111,10 @@ def _stated_anew(text: str) -> tuple[list[Edit], list[Edit]]:
     for match in islice(_CORRECTS.finditer(text), _MOST):
         if starred and match.group().endswith("*"):
             continue
-        start, end = match.end(), _end(text, match.end())
+        start, end = match.end(), line_end(text, match.end())
         found = _anew(text, match, start, end) if text[start:end].strip(" \t:.,-") else None
         if found is None and text[start:end].rstrip()[-1:] in ("", ":", ".") and end + 1 < len(text):
-            found = _anew(text, match, end + 1, _end(text, end + 1))
+            found = _anew(text, match, end + 1, line_end(text, end + 1))
         if found is not None and not any(a <= found[0][0] < b for a, b, _ in (*gone, *fronts)):
             gone.append((*found[0], " "))
             fronts += found[1]
@@ -132,9 +132,9 @@ def _anew(text: str, match: re.Match[str], start: int, end: int) -> tuple[tuple[
             edits += [(*sign.span(), " = ")] if sign["said"] else []
             return (same[-1][1], stop.start() if stop is not None else len(text)), edits
     moving = _accelerating(text[start:end])
-    lines = [(a, _end(text, a)) for a in _starts(text, match.start())]
+    lines = [(a, line_end(text, a)) for a in _starts(text, match.start())]
     alike = [x for x in lines if moving and "=" in text[slice(*x)] and _accelerating(text[slice(*x)]) == moving]
-    of = re.search(r"\d{1,2}|\b[ivx]{1,4}\b|\b[a-h]\b", match.groupdict().get("of") or "")
+    of = re.search(r"\d{1,2}|\b[ivx]{1,4}\b|\b[a-h]\b", match["of"] or "")
     if of is not None:
         numbered = rf"[ \t]*(?:(?:line|eq\w*|equation|zeile|gl\w*)\.?[ ]?)?[(\[]?{of.group()}[)\].:]"
         alike = [x for x in alike if re.match(numbered, text[slice(*x)], re.IGNORECASE)]
@@ -164,7 +164,7 @@ def _edits(text: str) -> Iterator[Edit]:
     lines: list[tuple[int, int]] = []
     if any(word in text.lower() for word in _WORDS):
         said = [m.start() for m in _SAID.finditer(text)][:_MOST]
-        lines = sorted({(text.rfind("\n", 0, k) + 1, _end(text, k)) for k in said})
+        lines = sorted({(text.rfind("\n", 0, k) + 1, line_end(text, k)) for k in said})
     if any(word in text.lower() for word in _BEFORE):
         taken = {_span(m) for m in islice(_TAKEN_BACK.finditer(text), _MOST) if "=" in m["said"] and _is_taken_back(m)}
         taken = {x for x in taken if not any(a <= x[0] < b for a, b in lines)}
@@ -231,9 +231,3 @@ def _marked(text: str) -> Iterator[tuple[int, int]]:
             if match.start() >= end:
                 end = closing(text, match.end())
                 yield match.start(), end
-
-
-def _end(text: str, start: int) -> int:
-    """The end of a line."""
-    end = text.find("\n", start)
-    return len(text) if end < 0 else end

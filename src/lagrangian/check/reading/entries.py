@@ -9,7 +9,7 @@ det M = a c - b^2                                           |M| = a c - b^2
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from itertools import islice, pairwise
 
 from lagrangian.check.reading.name_patterns import LOWERED
@@ -59,7 +59,7 @@ MOST_MATRICES = 60
 _AMPERSAND, _SEMICOLON, _WIDE = re.compile(r"(?<!\\)&"), re.compile(";"), re.compile(r"[ \t]{2,}")
 
 _IN_LATEX = re.compile(
-    r"\\begin\{(?P<kind>[bpBvV]?matrix|smallmatrix)\}(?P<inside>[^{}\\]*+(?:(?!\\(?:begin|end)\{)[\\{}][^{}\\]*+)*+)\\end\{"
+    r"\\begin\{(?:[bpBvV]?matrix|smallmatrix)\}(?P<inside>[^{}\\]*+(?:(?!\\(?:begin|end)\{)[\\{}][^{}\\]*+)*+)\\end\{"
 )
 _MIRRORED = re.compile(
     r"[*∗⋆★]|\\(?:ast|star)|\\(?:text|mathrm|mbox)\s?\{[ ]?symm?(?:\.|etric|etrisch)?[ ]?\}|symm?(?:\.|etric|etrisch)?",
@@ -177,6 +177,20 @@ def _occurs_once(name: str, text: str) -> bool:
     return len(re.findall(rf"(?<!\w){name}(?!\w)", text)) == 1
 
 
+def _listed(form: re.Pattern[str], text: str) -> dict[str, dict[str, str]]:
+    """The entries that a text gives of matrices and columns, by the names of these and by their places."""
+    found: dict[str, dict[str, str]] = {}
+    for match in form.finditer(text):
+        found.setdefault(match["name"], {}).setdefault(match["place"].translate(LOWERED), match.group().strip())
+    return found
+
+
+def _rows(entries: Mapping[str, str], count: int, zero: str | None) -> list[list[str | None]]:
+    """The rows of a matrix; ``zero`` is what stands for the entries that are not given."""
+    numbers = [str(k + 1) for k in range(count)]
+    return [[entries.get(i + j, zero if len(max(entries)) > 1 else None) for j in numbers] for i in numbers]
+
+
 def entered_matrices(written: TracedText, count: int, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer with a statement in front for each matrix, or column, that is given entry by entry and used.
 
@@ -187,17 +201,13 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
     """
     if not 2 <= count <= MOST:
         return written
-    found: dict[str, dict[str, str]] = {}
-    for match in _ENTRY.finditer(written.text):
-        found.setdefault(match["name"], {}).setdefault(match["place"].translate(LOWERED), match.group().strip())
-    given = set(_MATRIX.findall(written.text))
-    numbers, zero = [str(k + 1) for k in range(count)], "0" if _REST_ZERO.search(written.text) else None
+    given, zero = set(_MATRIX.findall(written.text)), "0" if _REST_ZERO.search(written.text) else None
     added: list[str] = []
-    for name, entries in found.items():
+    for name, entries in _listed(_ENTRY, written.text).items():
         if name in given:
             continue
-        rows = [[entries.get(i + j, zero if len(max(entries)) > 1 else None) for j in numbers] for i in numbers]
-        column = [entries.get(i) for i in numbers]
+        rows = _rows(entries, count, zero)
+        column = [entries.get(str(k + 1)) for k in range(count)]
         if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}{_COLUMN}", written.text):
             added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
         elif all(column) and not taken(name) and re.search(_SIDE.replace("NAME", name), written.text, re.MULTILINE):
@@ -208,14 +218,13 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
 def entered_in_latex(written: TracedText, count: int) -> TracedText:
     """Return an answer in LaTeX with a statement in front for each matrix in bold of which it gives all entries that
     are not said to be 0, and which is used in front of rates: \\mathbf{M}\\ddot{q}."""
-    found: dict[str, dict[str, str]] = {}
-    for match in _BOLD_ENTRY.finditer(written.text) if 2 <= count <= MOST else ():
-        found.setdefault(match["name"], {}).setdefault(match["place"], match.group().strip())
-    numbers, zero = [str(k + 1) for k in range(count)], "0" if _REST_ZERO.search(written.text) else None
+    if not 2 <= count <= MOST:
+        return written
+    zero = "0" if _REST_ZERO.search(written.text) else None
     added, around = "", "$$" if _DELIMITED.search(written.text) else ""
-    for name, entries in found.items():
+    for name, entries in _listed(_BOLD_ENTRY, written.text).items():
         bold = rf"\\(?:mathbf|boldsymbol|bm)\s?\{{?\s?{name}\s?\}}?"
-        rows = [[entries.get(i + j, zero) for j in numbers] for i in numbers]
+        rows = _rows(entries, count, zero)
         used = re.search(rf"{bold}\s?(?:\\,)?\s?\\d?dot(?![a-z])", written.text)
         if all(map(all, rows)) and used and not re.search(rf"{bold}\s*&?=", written.text):
             listed = r" \\ ".join(" & ".join(map(str, row)) for row in rows)

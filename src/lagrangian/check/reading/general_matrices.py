@@ -127,7 +127,7 @@ _LATEX = _Notation(
 _LONGER = re.compile(r"(?<![\w\\])([A-Za-z]_?[a-z]{1,2})_?(?:11|₁₁)[ \t]*=(?!=)")
 """The name of several letters of a matrix, in front of the places of its first entry."""
 _FORMS = {False: (_PLAIN, _PLAIN.general(), _PLAIN.part()), True: (_LATEX, _LATEX.general(), _LATEX.part())}
-_ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
+ACCELERATION = re.compile("''|″|’’|′′|\u0308|\\\\ddot")
 
 
 def with_general_form(
@@ -140,7 +140,7 @@ def with_general_form(
 ) -> TracedText:
     """Return an answer with this form in the entries that it gives, one for each of the ``coordinates`` in a column, of
     which none is ``taken`` by the system; only if it gives all of them."""
-    if not 2 <= len(coordinates) <= MOST or not _ACCELERATION.search(written.text):
+    if not 2 <= len(coordinates) <= MOST or not ACCELERATION.search(written.text):
         return written
     if not latex:
         written = _with_rows(_with_entries(written), len(coordinates))
@@ -173,7 +173,7 @@ class _Form:
             before = self.text[self.text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
             start, end = ("", "") if self.latex else ("\n" if before else "", "\n")
             listed = match.groupdict().get("listed")
-            if listed and not _ACCELERATION.search(listed):
+            if listed and not ACCELERATION.search(listed):
                 continue
             derived = f"*{listed}" if listed else self.notation.derived.format(match["column"])
             notes.update(dict.fromkeys(self.symmetric))

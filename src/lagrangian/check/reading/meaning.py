@@ -27,9 +27,6 @@ from lagrangian.read.letters import key, undotted
 MAX_ENTRIES = 400
 """The largest number of entries of a matrix."""
 
-LARGEST_DETERMINANT = 3
-"""The most rows of a matrix whose determinant is written out."""
-
 
 class Meaning(ExpressionReader):
     """Evaluates the trees of one statement about a ``kind`` of quantity; ``budget`` is shared by the whole answer. An
@@ -383,7 +380,7 @@ class Meaning(ExpressionReader):
                 continue
             if str(node.children[0]) in ("abs", "norm") and found.shape[1] == 1:
                 return sp.sqrt(square(found))
-            if str(node.children[0]) in ("abs", "det") and is_square(found) and found.shape[0] <= LARGEST_DETERMINANT:
+            if str(node.children[0]) in ("abs", "det") and is_square(found):
                 self.of_matrix = True
                 return self._determinant(found, argument)  # |M|
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")

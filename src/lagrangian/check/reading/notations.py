@@ -166,13 +166,15 @@ def _below(sign: str, *, latex: bool) -> str:
     return f"_{{{word}}}" if latex else f"_{word}"
 
 
+def _moves(lines: Lines) -> Callable[[str], bool]:
+    """What says whether a name is a coordinate."""
+    moving = {key(c.name) for c in lines.model.coordinates}
+    return lambda name: key(name) in moving
+
+
 def _with_slopes(text: TracedText, lines: Lines, taken: Callable[[str], bool], latex: bool) -> TracedText:
     """An answer in which derivatives by a coordinate are slopes, however they are written: dℓ/dθ, ℓ', ℓ_θ."""
-    names, moving = lines.names, {key(c.name) for c in lines.model.coordinates}
-
-    def moves(name: str) -> bool:
-        return key(name) in moving
-
+    names, moves = lines.names, _moves(lines)
     if not latex:
         applied = with_functions_applied(with_second_derivatives(text, moves, taken), taken, names.notes)
         applied = with_spelled_slopes(applied, moves, names.notes)
@@ -206,12 +208,7 @@ def _with_letters_apart(text: TracedText, lines: Lines, taken: Callable[[str], b
     """An answer in which letters that words alone tell from those of the system are what they stand for."""
     if LATEX.search(text.text):
         return text
-    moving = {key(c.name) for c in lines.model.coordinates}
-    spelled = lines.model.symbols.__contains__
-
-    def moves(name: str) -> bool:
-        return key(name) in moving
-
+    moves, spelled = _moves(lines), lines.model.symbols.__contains__
     text = with_words_below(without_glosses_of_names(text, lines.model, taken), moves, taken, exact=spelled)
     return with_letters_apart(text, moves, spelled, taken, lines.names.notes)
 
@@ -235,7 +232,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    moving = {key(c.name) for c in lines.model.coordinates}
+    moves = _moves(lines)
     dotted = _copied_with_dots(text, lines, taken)
     typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables_written_out(with_tables(typed_in, names.changes, taken))
@@ -252,10 +249,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if not LATEX.search(session.text):
         session = with_braced_lists(session)
         session = _with_rates(with_indexed_parameters(session, [p.name for p in lines.model.parameters]), names, own)
-    session = with_energies_below(session, lambda name: key(name) in moving, taken)
-    relaxed = without_legend(_with_times(session, lambda name: key(name) in moving, taken))
+    session = with_energies_below(session, moves, taken)
+    relaxed = without_legend(_with_times(session, moves, taken))
     if not lines.model.constraints:  # x = 2 r φ beside a rope is one
-        relaxed = without_relaxed(relaxed, lambda name: key(name) in moving, taken, names.notes)
+        relaxed = without_relaxed(relaxed, moves, taken, names.notes)
     referred = without_units_of_numbers(without_unit_checks(relaxed, taken))
     tagless = with_determinants(solved_matrices(without_drawn_formulas(referred, typed), taken))
     latex = bool(LATEX.search(tagless.text))
@@ -289,10 +286,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
 
 def _copied_with_dots(text: str, lines: Lines, taken: Callable[[str], bool]) -> TracedText:
     """An answer without marks of copying, with the general form in its entries and dots above letters behind them."""
-    names, moving = lines.names, {key(c.name) for c in lines.model.coordinates}
+    names = lines.names
     copied = with_symmetric_entries(_copied(text, names.notes), names.notes)
     whole = _with_whole_forms(copied, lines, taken, latex="\\" in text or "$" in text)
-    dotted = with_dots_above(whole, lambda name: key(name) in moving)
+    dotted = with_dots_above(whole, _moves(lines))
     return dotted if LATEX.search(text) else with_summed_tables(dotted, taken, names.notes)
 
 
@@ -330,13 +327,9 @@ def _with_own_letters(written: TracedText, lines: Lines) -> TracedText:
     """The answer with deviations from rest stated by themselves, degrees that are added as parts of π, and names for
     primes of constants."""
     model = lines.model
-    inputs, moving, fixed = (
-        {key(x.name) for x in some} for some in (model.inputs, model.coordinates, model.parameters)
-    )
+    inputs, fixed = ({key(x.name) for x in some} for some in (model.inputs, model.parameters))
     summed = with_named_sums(written, lambda name: key(name) in fixed, latex=bool(LATEX.search(written.text)))
-    apart = with_deviations(
-        summed, lambda name: key(name) in moving, lambda name: key(name) in inputs, lines.names.known
-    )
+    apart = with_deviations(summed, _moves(lines), lambda name: key(name) in inputs, lines.names.known)
     apart = apart.sub(_ADDED_DEGREES, lambda m: f"{m['sign']} ({m['number']}*pi/180)")
     return with_primed_constants(apart, lambda name: key(name) in fixed)
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from itertools import islice
 from unicodedata import normalize
 
+from lagrangian.check.reading.general_matrices import ACCELERATION
 from lagrangian.check.reading.programs.session_lists import entries_in
 from lagrangian.check.reading.programs.sessions import closes
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -39,7 +40,6 @@ _EQUALS = re.compile(
     re.IGNORECASE,
 )
 _BEHIND = re.compile(r"(?:\^T)?[ \t]*[.;]?")
-_ACCELERATION = re.compile("''|″|’’|′′|\u0308")
 
 
 def with_spoken_matrices(written: TracedText) -> TracedText:
@@ -91,6 +91,6 @@ def _product(text: str, at: int, size: int) -> tuple[tuple[list[str], list[str]]
         found.append(entries)
         at = close + 1
     behind = _BEHIND.match(text, at)
-    if not all(_ACCELERATION.search(normalize("NFD", x)) for x in found[0]):
+    if not all(ACCELERATION.search(normalize("NFD", x)) for x in found[0]):
         return None
     return (found[0], found[1]), behind.end() if behind is not None else at

@@ -28,9 +28,9 @@ _STATED = re.compile(
     re.MULTILINE,
 )
 _SUBTRACTED = re.compile(
-    rf"(?<![\w*^/])(?P<of>{_NAME})[ \t]*(?:[-−][ \t]*(?P<name>(?P=of))(?:\\?\*|[⋆★])"
+    rf"(?<![\w*^/])(?P<of>{_NAME})[ \t]*(?:[-−][ \t]*(?P=of)(?:\\?\*|[⋆★])"
     r"(?=[ \t]*(?:[.,;:)]|$|[^\W\d_]{2}))"
-    rf"|=[ \t]*(?P<rest>(?P=of))(?:\\?\*|[⋆★])[ \t]*\+)",
+    r"|=[ \t]*(?P=of)(?:\\?\*|[⋆★])[ \t]*\+)",
     re.MULTILINE,
 )
 """A value from which deviations count: z = s - s*, s = s* + z."""

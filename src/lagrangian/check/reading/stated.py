@@ -143,8 +143,8 @@ def _momentum(name: str) -> re.Match[str] | None:
 
 def of_coordinate(name: str) -> tuple[str, str] | None:
     """Return what a name is for a coordinate that it ends with, whatever that is: Q_z ("Xi", "z"), p_z ("p", "z")."""
-    for kind, form in (("Xi", _FORCE), ("p", _MOMENTUM)):
-        match = _momentum(spelled(name)) if kind == "p" else form.match(spelled(name))
+    for kind, form in (("Xi", _FORCE.match), ("p", _momentum)):
+        match = form(spelled(name))
         if match is not None and match["index"] and not match["index"].isdigit():
             return kind, match["index"]
     return None

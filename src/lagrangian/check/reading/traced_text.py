@@ -70,6 +70,12 @@ class TracedText:
         return Source(text, written.what, written.place, locate)
 
 
+def line_end(text: str, start: int) -> int:
+    """Return where the line ends in which a place is."""
+    end = text.find("\n", start)
+    return len(text) if end < 0 else end
+
+
 def apart(edits: Iterable[Edit]) -> list[Edit]:
     """Edits in their order, without those that overlap an earlier one."""
     kept: list[Edit] = []

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart, line_end
 
 _SAID = re.compile(
     r"^[^\w\n]{0,6}(?:\d{1,2}[.)][ \t]*)?(?:(?:check|checking|kontrolle|probe)[ \t]+(?:(?:of|the|der)[ \t]+){0,2})?"
@@ -31,7 +31,7 @@ _UNIT = (
 _FACTOR = r"(?:(?:kg|Nms|Nm|Ns|N|J|W|rad|m|s|1)(?![A-Za-z_\d])(?:²|³|\^-?\d|⁻[¹²³])?|[()])"
 _PRODUCT = rf"{_FACTOR}(?:[ ]{{0,2}}+(?:[·*/⋅][ ]{{0,2}}+)?+{_FACTOR}){{0,16}}+"
 _EQUATED = re.compile(
-    rf"(?:(?P<gap>[ \t]{{2,150}}+)|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
+    rf"(?:[ \t]{{2,150}}+|(?P<open>[ \t]{{0,150}}+\[)[ ]?)"
     rf"(?P<units>{_PRODUCT}(?:[ ]?=[ ]?{_PRODUCT}){{1,3}})(?(open)[ ]?\])"
     r"(?=[ \t]{0,20}(?:ok|OK|okay|passt|[✓✔☑])?[ \t.,]{0,20}$)",
     re.MULTILINE,
@@ -91,7 +91,7 @@ def _equated(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
         above = text[:start].rstrip().rpartition("\n")[2][-1:]
         goes_on = _SIGNED.match(before) is not None or above in "+-−*·/="
         at = match.start() if match["open"] or "=" in before or goes_on else start
-        yield at, text.find("\n", match.end()) % (len(text) + 1) if at == start else match.end(), ""
+        yield at, line_end(text, match.end()) if at == start else match.end(), ""
 
 
 def _ends_in_units(part: str, taken: Callable[[str], bool]) -> bool:

@@ -18,7 +18,6 @@ from lagrangian.derive.reasons.holding import Holding
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.model import Body, Point, Words
 from lagrangian.model.elements.base import difference
-from lagrangian.model.geometry import turned
 from lagrangian.records import dataclass
 
 LONGEST_LENGTH = 40
@@ -143,7 +142,7 @@ class Finder:
         normal = self._across(u)
         if not normal or carrier.axes is None:
             return normal
-        fixed = turned(carrier.axes.rotation, [x.expr() for x in normal])
+        fixed = carrier.axes.in_fixed_axes([x.expr() for x in normal])
         return tuple(context.form(context.model.expand(x)) for x in fixed)
 
     def _normal(self, m: Moving) -> Column | None:

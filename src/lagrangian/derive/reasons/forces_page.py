@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any, cast
@@ -239,14 +240,7 @@ def _passed_on(why: Reasoning) -> Iterator[Item]:
 
 def _for_number(words: str, one: bool) -> str:
     """The words with what is said of one thing, or of several."""
-    found = ""
-    for part in words.split("{s:"):
-        if "}" in part:
-            choice, _, rest = part.partition("}")
-            single, _, many = choice.partition("|")
-            part = (single if one else many) + rest
-        found += part
-    return found
+    return re.sub(r"\{s:([^|}]*)\|([^}]*)\}", r"\1" if one else r"\2", words)
 
 
 # -- (2), (3) -------------------------------------------------------------------------------------------------------

@@ -26,7 +26,6 @@ from lagrangian.model import Body, Damper, Element, Force, Frame, Friction, Grav
 from lagrangian.model.elements.base import difference
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.model.elements.vectors import norm
-from lagrangian.model.geometry import turned
 from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
@@ -257,12 +256,19 @@ def _pairs(places: FixedPoints) -> Iterator[tuple[Body | None, Body]]:
     yield from ((a, b) for b in bodies for a in bodies if a is not b)
 
 
+def _unit_slope(context: Context, displacement: sp.Expr) -> tuple[list[Form], int | None]:
+    """The slopes of a deflection by the coordinates, and which is the first that is not 0; None if it is not ±1."""
+    slopes = [context.form(bounded.diff(displacement, c.symbol)) for c in context.model.coordinates]
+    at = next((j for j, s in enumerate(slopes) if not s.is_zero), None)
+    unit = at is not None and slopes[at].is_number and abs(slopes[at].expr()) == 1
+    return slopes, at if unit else None
+
+
 def _straight(places: FixedPoints, element: Element, effort: sp.Expr, displacement: sp.Expr) -> list[Load]:
     """The deflection is the separation of two bodies along a direction u that does not turn: ∂r/∂ξ = u ∂δ/∂ξ."""
     context = places.context
-    slopes = [context.form(bounded.diff(displacement, c.symbol)) for c in context.model.coordinates]
-    at = next((j for j, s in enumerate(slopes) if not s.is_zero), None)
-    if at is None or not (slopes[at].is_number and abs(slopes[at].expr()) == 1):
+    slopes, at = _unit_slope(context, displacement)
+    if at is None:
         return []
     place = {m.body: m for m in places.moving if not m.turning}
     for a, b in _pairs(places):
@@ -304,9 +310,8 @@ def _stretched(places: FixedPoints, element: Element, effort: sp.Expr, displacem
 def _slid(places: FixedPoints, element: Element, effort: sp.Expr, displacement: sp.Expr) -> list[Load]:
     """The deflection is how far a body has moved along a straight line in the axes of another that turns."""
     context, model = places.context, places.context.model
-    slopes = [context.form(bounded.diff(displacement, c.symbol)) for c in model.coordinates]
-    at = next((j for j, s in enumerate(slopes) if not s.is_zero), None)
-    if at is None or not (slopes[at].is_number and abs(slopes[at].expr()) == 1):
+    slopes, at = _unit_slope(context, displacement)
+    if at is None:
         return []
     for a, b in _pairs(places):
         if a is None or a.axes is None:
@@ -320,7 +325,7 @@ def _slid(places: FixedPoints, element: Element, effort: sp.Expr, displacement: 
             for c, s in zip(model.coordinates, slopes, strict=True)
             for x, n in zip(arm, u, strict=True)
         ):
-            along = turned(a.axes.rotation, [effort * x.expr() for x in u])
+            along = a.axes.in_fixed_axes([effort * x.expr() for x in u])
             force = tuple(map(model.expand, along))
             opposite = _load_at(places, element, a, b.at, tuple(-x for x in force))
             return [Load(element, b, force, _no_torque(b)), opposite]

@@ -45,19 +45,17 @@ class _Motions:
     """Places, velocities and turns of all bodies at a state, in the fixed axes; by the rate of every coordinate."""
 
     def __init__(self) -> None:
-        self.place: dict[Body, Array] = {}
         self.velocity: dict[Body, Array] = {}
         """(coordinates, axes)."""
         self.turn: dict[Body, Array] = {}
         """(coordinates, 1 or 3); without rows for what has no axes."""
-        self.axes: dict[Body, Array] = {}
         self.points: dict[int, Array] = {}
 
     def carried(self, body: Body, carrier: Body | None) -> Array:
         """The velocity of a body relative to the place in another where it is, or to the ground."""
         if carrier is None:
             return self.velocity[body]
-        arm = self.place[body] - self.place[carrier]
+        arm = self.points[id(body.at)] - self.points[id(carrier.at)]
         return self.velocity[body] - self.velocity[carrier] - _cross(self.turn.get(carrier), arm)
 
 
@@ -73,8 +71,7 @@ def _cross(turn: Array | None, arm: Array) -> Array:
 def _motions(context: Context, moving: Sequence[Moving]) -> _Motions | None:
     """All motions at the first state at which everything has a value; None if there is none."""
     model = context.model
-    exprs = [model.expand(x) for m in moving if not m.turning for x in model.position(m.body.at)]
-    exprs += [x.raw() for m in moving for column in m.columns for x in column]
+    exprs = [x.raw() for m in moving for column in m.columns for x in column]
     axes = [m.body for m in moving if m.turning and m.body.axes is not None and m.body.axes.dimension == 3]
     exprs += [model.expand(x) for b in axes for x in entries(b.axes.rotation)]  # type: ignore[union-attr]
     points = [p for m in moving for p in m.body.at.with_parents()]
@@ -92,14 +89,10 @@ def _motions(context: Context, moving: Sequence[Moving]) -> _Motions | None:
 
     found, size, n = _Motions(), model.dimension, len(model.coordinates)
     for m in moving:
-        if not m.turning:
-            found.place[m.body] = taken(size)
-    for m in moving:
         width = len(m.velocity)
         (found.turn if m.turning else found.velocity)[m.body] = taken(n * width).reshape(n, width)
     for b in axes:
-        found.axes[b] = taken(9).reshape(3, 3)
-        found.turn[b] = found.turn[b] @ found.axes[b].T
+        found.turn[b] = found.turn[b] @ taken(9).reshape(3, 3).T
     for p in points:
         found.points[id(p)] = taken(size)
     return found
@@ -115,7 +108,7 @@ def _ways(motions: _Motions, body: Body, hold: Holding | None) -> Iterator[Array
     if hold is None:
         yield from velocity.T
     elif hold.kind == "rod" and hold.at is not None:
-        arm = motions.place[body] - motions.points[id(hold.at)]
+        arm = motions.points[id(body.at)] - motions.points[id(hold.at)]
         _, _, across = np.linalg.svd(arm.reshape(1, -1))
         yield from (velocity @ across[1:].T).T
     elif hold.kind == "track":

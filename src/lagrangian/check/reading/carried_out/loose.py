@@ -6,9 +6,9 @@ import re
 from itertools import islice
 
 from lagrangian.check.reading.carried_out.values import State
+from lagrangian.check.reading.programs.indexed_coordinates import HEADER
 from lagrangian.records import dataclass
 
-_HEADER = re.compile(r"^[ \t]*+(?:function|def)[ \t]|@\(|\blambda\b", re.MULTILINE)
 _RATES = re.compile(
     r"^[ \t]*+(?P<out>d(?P<of>[^\W\d_]\w{0,12}?)(?:_?dt)?|(?P<dotted>[^\W\d_]\w{0,12}?)_?(?:dot|prime)"
     r"|(?P<short>[^\W\d_]\w{0,12}?)_?d)"
@@ -32,7 +32,7 @@ class Loose:
 
 def loose_rates(text: str) -> Loose | None:
     """Return how a program without functions calls its state and the rates of this; None if it does not state any."""
-    found = () if _HEADER.search(text) else islice(_RATES.finditer(text), MOST)
+    found = () if HEADER.search(text) else islice(_RATES.finditer(text), MOST)
     match = next((x for x in found if x["short"] is None or _is_unpacked(x["short"], text)), None)
     if match is None:
         return None

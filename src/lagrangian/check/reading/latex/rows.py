@@ -24,6 +24,7 @@ from lagrangian.check.reading.plain.ends import incomplete
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.directions import is_direction
+from lagrangian.check.reading.traced_text import line_end
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _BEHIND = re.compile(r"(?:\s|\\[,;:!]|&)*+(?:[,.;]|\\\\|\\q?quad|\\end|\\\]|\$|\Z)")
@@ -191,8 +192,7 @@ def beside_mathematics(text: str) -> str:
     for start, inside in _mathematics(text):
         if start + len(inside) < at:
             continue
-        first, last = text.rfind("\n", at, start) + 1, text.find("\n", start + len(inside))
-        last = last if last >= 0 else len(text)
+        first, last = text.rfind("\n", at, start) + 1, line_end(text, start + len(inside))
         kept += [text[at : max(at, first)], re.sub(r"[^\n]", " ", text[max(at, first) : last])]
         at = last
     if not at:

@@ -43,7 +43,7 @@ _IN_CELL = re.compile(
 )
 """A name and its value in cells of a table that stand beside each other."""
 _NAMED_BEHIND = re.compile(
-    rf"(?P<of>=[^=$]{{1,400}})(?P<said>\$\$?,?[ \n]{CALLED_SO}\$(?P<new>{_NAME})\$)(?={CALLED_AFTER}\s*(?:[.,;]|\Z))",
+    rf"=[^=$]{{1,400}}(?P<said>\$\$?,?[ \n]{CALLED_SO}\$(?P<new>{_NAME})\$)(?={CALLED_AFTER}\s*(?:[.,;]|\Z))",
     re.IGNORECASE,
 )
 """A name that words give to the end of a formula in front of them."""

@@ -51,6 +51,7 @@ from lagrangian.check.reading.prose.words_or_mathematics import (
     without_remarks,
     without_tail,
 )
+from lagrangian.check.reading.traced_text import line_end
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.records import dataclass
 
@@ -248,22 +249,22 @@ def _labelled(text: str, at: int, labelled: Callable[[str], bool]) -> bool:
 
 def _states(text: str, at: int) -> bool:
     """Whether a colon stands between two statements, ∑F = m x'': F - k x = m x'', or behind more than a label."""
-    first, last = text.rfind("\n", 0, at) + 1, text.find("\n", at)
+    first, last = text.rfind("\n", 0, at) + 1, line_end(text, at)
     before = re.split("[,;]", text[max(first, at - 400) : at])[-1]
-    return text.find("=", at, last if last >= 0 else len(text)) >= 0 and bool(re.search(r"[=\[\]*^/'′]", before))
+    return text.find("=", at, last) >= 0 and bool(re.search(r"[=\[\]*^/'′]", before))
 
 
 def _both(text: str, start: int, end: int) -> bool:
     """Whether there is an equals sign on the same line before and after a place."""
-    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
-    return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
+    first, last = text.rfind("\n", 0, start) + 1, line_end(text, end)
+    return "=" in text[first:start] and "=" in text[end:last]
 
 
 def _beside(text: str, start: int, end: int) -> bool:
     """Whether statements stand on both sides of a gap: p = m x'      dp/dt = m x'' is no product."""
-    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
-    parted = _PARTED.search(text, end, last if last >= 0 else len(text))
-    right = text[end : parted.start() if parted else last if last >= 0 else len(text)]
+    first, last = text.rfind("\n", 0, start) + 1, line_end(text, end)
+    parted = _PARTED.search(text, end, last)
+    right = text[end : parted.start() if parted else last]
     if _EQUALS.search(right) is None:
         return False
     left = text[first:start].rstrip()

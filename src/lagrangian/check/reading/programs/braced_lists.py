@@ -15,7 +15,7 @@ from itertools import islice
 from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.programs.session_lists import entries_in
 from lagrangian.check.reading.programs.sessions import closes
-from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart, line_end
 
 MOST, DEEPEST = 100, 6
 """The most lists and calls of an answer that are looked at, and how deep calls stand in each other."""
@@ -123,6 +123,6 @@ def _solved(text: str) -> Iterator[Edit]:
             of = text[match.end() : end].strip()
             factor = re.compile(IDENT).match(text, dot.end())
             last = closes(text, dot.end()) + 1 if factor is None else factor.end()
-            behind = text[last : text.find("\n", last) if "\n" in text[last:] else len(text)].strip(" \t;")
+            behind = text[last : line_end(text, last)].strip(" \t;")
             if last > 0 and not behind:
                 yield match.start("left"), last, f"{of} * {match['left']} == {text[dot.end() : last]}"

@@ -16,7 +16,8 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 MOST = 60
 """The most comments, and entries in one, that are looked at."""
 
-_HEADER = re.compile(r"^[ \t]*+(?:function|def)[ \t]|@\(|\blambda\b", re.MULTILINE)
+HEADER = re.compile(r"^[ \t]*+(?:function|def)[ \t]|@\(|\blambda\b", re.MULTILINE)
+"""How a function of a program begins."""
 _COMMENT = re.compile(r"(?:^|(?<=[ \t;,\])]))(?:[#%]|//)[^\n]*", re.MULTILINE)
 _NAME = r"[^\W\d]\w{0,15}"
 _ENTRY = re.compile(rf"(?<![\w.])(?P<of>{_NAME})[(\[](?P<at>\d)[)\]]")
@@ -38,7 +39,7 @@ def with_indexed_coordinates(
     """Return a program without functions in which the entries of such columns are coordinates, rates and accelerations;
     ``find`` says which names of the system one can mean."""
     text = written.text
-    comments = [] if _HEADER.search(text) else list(islice(_COMMENT.finditer(text), MOST))
+    comments = [] if HEADER.search(text) else list(islice(_COMMENT.finditer(text), MOST))
     if not comments or _ENTRY.search(text) is None:
         return written
     edits: list[Edit] = []

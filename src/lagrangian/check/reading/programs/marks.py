@@ -22,7 +22,7 @@ from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.programs.matrices import with_equations_in_comments, with_shown_matrices
 from lagrangian.check.reading.programs.sessions import carries
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, line_end
 from lagrangian.errors import Place
 
 MOST, LONGEST = 200, 2_000
@@ -178,8 +178,8 @@ def _comments(text: str) -> Iterator[Edit]:
     """The marks of comments that end with their line, in the place of those in brackets; nothing where one is inside a
     line."""
     for match in islice(_COMMENT.finditer(text), MOST):
-        first, end = text.rfind("\n", 0, match.start()) + 1, text.find("\n", match.end())
-        above, below = text[first : match.start()].strip(), text[match.end() : end if end >= 0 else len(text)].strip()
+        first, end = text.rfind("\n", 0, match.start()) + 1, line_end(text, match.end())
+        above, below = text[first : match.start()].strip(), text[match.end() : end].strip()
         if above and below:
             yield *match.span(), " "
             continue

@@ -57,7 +57,6 @@ _DOT = re.compile(
     r"(?P<index>_(?:\w|\{\w{1,8}\}))?"
 )
 _TEX = re.compile(r"\\(?:[,;:! ]|left|right|big)|[\\${}&`*]")
-_SENTENCE = re.compile(r"[.;!?]\s")
 _STEADY = re.compile(
     r"\b(?:const(?:ant)?|steady|uniform(?:ly)?|konstant\w{0,2}|stationär\w{0,2}|gleichförmig\w{0,2}|constante?s?|"
     r"unaccelerated)\b",
@@ -99,13 +98,12 @@ def _said(lines: Sequence[str], meaning: Callable[[str], tuple[str, int] | None]
     plain = [_plain(x) if any(c in x for c in "=→>≈") or "to" in x else x for x in lines]
     values = [frozenset(_values(x, meaning)) for x in plain]
     cues = [_cues(x) for x in lines]
-    moves = [accelerates_in(_SAID.sub(" ", x)) for x in plain]
     for k, line in enumerate(lines):
         if "=" not in line:
             yield frozenset()
             continue
         above = _above(lines, k)
-        if not moves[k] or values[k] or any(values[above:k]) or cues[k]:
+        if any(values[above : k + 1]) or cues[k] or not accelerates_in(_SAID.sub(" ", plain[k])):
             yield frozenset[str]().union(*values[above : k + 1], *cues[above : k + 1])
         else:
             yield frozenset()

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable
 
 from lagrangian.check.reading.prose.remarks import accelerates_in
-from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.traced_text import TracedText, line_end
 from lagrangian.read.letters import undotted
 
 _START = r"(?:\\left)?\([ ]?(?:t[ ]?=[ ]?)?0[ ]?(?:\+|⁺|\^[ ]?\+|\^\{[ ]?\+[ ]?\})?[ ]?(?:\\right)?\)"
@@ -25,7 +25,7 @@ def with_start_alone(written: TracedText, moves: Callable[[str], bool]) -> Trace
     text = written.text
 
     def bare(match: re.Match[str]) -> str:
-        line = text[text.rfind("\n", 0, match.start()) + 1 : text.find("\n", match.end()) % (len(text) + 1)]
+        line = text[text.rfind("\n", 0, match.start()) + 1 : line_end(text, match.end())]
         starts = moves(undotted(match["name"])[0]) and accelerates_in(line)
         return match["of"].ljust(len(match.group())) if starts else match.group()
 

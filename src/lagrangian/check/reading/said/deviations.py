@@ -77,8 +77,9 @@ def with_deviations(
         if fixed and drives(_bare(match["of"])) and not taken(_bare(match["more"])):
             rest = match["rest"] if _NAMES.fullmatch(match["rest"]) else f"({match['rest']})"
             edits.append((*match.span(), f"{match['more']} = {match['of']} - {rest}"))
-    moving = moving_names(written.text)
-    for match in islice(_UNIFORM.finditer(written.text), MOST):
+    uniform = list(islice(_UNIFORM.finditer(written.text), MOST))
+    moving = moving_names(written.text) if uniform else frozenset[str]()
+    for match in uniform:
         if (said := _of_uniform_motion(match, moves, moving)) is not None:
             edits.append((*match.span(), said))
     return written.edited(apart(sorted(edits)))

@@ -35,7 +35,7 @@ _GROUP = re.compile(
     rf"(?<![\w*/^+−'’′-])(?P<new>{IDENT}(?:[ \t]*(?:,[ \t]*(?:and|und)|,|[ \t]and|[ \t]und|/)[ \t]*{IDENT}){{1,7}})"
     r"[ \t]++(?:are[ \t](?:short|abbreviations|symbols)[ \t]for|are|be|denote|mean|abbreviate"
     r"|stand[ \t]for|short[ \t]for|for|sind|seien|stehen[ \t]für|für)[ \t]++"
-    r"(?P<values>[^\n;=]{3,300}?)[ \t]*(?:respectively[ \t]*)?(?P<end>[;:\n]|\.(?=\s|\Z)|\Z)",
+    r"(?P<values>[^\n;=]{3,300}?)[ \t]*(?:respectively[ \t]*)?(?:[;:\n]|\.(?=\s|\Z)|\Z)",
     re.IGNORECASE,
 )
 """Several names, a verb, and the rest of the sentence."""

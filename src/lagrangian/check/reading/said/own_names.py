@@ -250,11 +250,7 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
                 yield DeclaredLetter(a, system.find(b)[0], match.span(), sure)
     for pairs, span in tabled_letters(text, _bare, lambda a, b: key(a) == key(b) or _may_be(a, b, system)):
         pairs = [(a, b) for a, b in pairs if key(a) != key(b)]
-        if (
-            pairs
-            and all(_may_be(a, b, system) for a, b in pairs)
-            and all(b <= span[0] or span[1] <= a for a, b in spans)
-        ):
+        if pairs and all(b <= span[0] or span[1] <= a for a, b in spans):
             spans.append(span)
             yield from (DeclaredLetter(a, system.find(b)[0], span, True) for a, b in pairs)
     for match in _LISTED.finditer(text):

@@ -100,7 +100,7 @@ def tabled_letters(
         return bare(name)
 
     for rows in (*_markdown(text), *_latex(text)):
-        yield from _of_table(rows, plain)
+        yield from (x for x in _of_table(rows, plain) if all(may_be(a, b) for a, b in x[0]))
     for form in _REFERENCES:
         for match in islice(form.finditer(text), MOST):
             for start, new in _named_before(text, match.start()):

@@ -27,7 +27,7 @@ _TURNS = re.compile(
     r"(?:turns|rotates|moves|rises|sinks|travels|advances|rolls|dreht[ ]sich|dreht|bewegt[ ]sich|tourne"
     r"|(?:has|have)[ ](?:then[ ])?(?:turned|rotated|moved|risen|sunk|travelled|traveled|advanced|rolled))"
     r"(?:[ ](?:by|with|through|um|mit|de))?[ ]"
-    r"(?P<said>[^()=.,;:\n]{1,80}(?=[ ]?(?P<close>\.?\)|[.,;:](?=\s|\Z)|\n|\Z)))",
+    r"(?P<said>[^()=.,;:\n]{1,80}(?=[ ]?(?:\.?\)|[.,;:](?=\s|\Z)|\n|\Z)))",
     re.IGNORECASE,
 )
 _PART = re.compile(rf"[ ]?(?:(?P<name>{_NAME})|\d{{1,3}}|[/*·$]|\\[,; ])")
@@ -38,8 +38,9 @@ def with_turned_bodies(text: TracedText, model: Model, taken: Callable[[str], bo
     """Return an answer in which such a sentence gives the coordinate of the body it names, if one coordinate alone is
     described with this noun and with the words behind the value, and the value has a coordinate of the answer's own."""
     edits: list[Edit] = []
-    moving = moving_names(text.text)
-    for match in islice(_TURNS.finditer(text.text), MOST):
+    found = list(islice(_TURNS.finditer(text.text), MOST))
+    moving = moving_names(text.text) if found else frozenset[str]()
+    for match in found:
         by, new = _value(match["said"], moving, taken)
         meant = [c for c in model.coordinates if _is_described(c, match["noun"])]
         behind = _WORD.findall(match["said"][len(by) :])
