@@ -30,6 +30,7 @@ def test_the_types_know_the_codes() -> None:
     assert typing.get_args(CodeText) == tuple(Code)
 
 
+@pytest.mark.slow
 def test_every_code_is_used_and_no_other() -> None:
     """As text, ``"E402"``, as a member, ``Code.E107``, or in a message printed as it is, ``"[E505] gave up"``."""
     used: set[str] = set()

@@ -33,7 +33,7 @@ def in_node(script: str, *parts: str) -> str:
     return told.stdout
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.skipif(NODE is None, reason="there is no Node on this machine")
 @pytest.mark.parametrize("size", [0, 1, 11, 12, 13, 26, 4000])
 def test_what_is_packed_is_read_again(size: int) -> None:

@@ -92,6 +92,7 @@ def test_a_result_says_of_what_it_is(results: dict[str, Any], name: str, said: s
     assert said in repr(results[name])
 
 
+@pytest.mark.slow
 def test_a_step_a_check_and_an_element_are_said_in_a_line(results: dict[str, Any]) -> None:
     d = results["derivation"]
     assert repr(d.steps[2]) == "<Step 2: Kinetic co-energy>"

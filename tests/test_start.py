@@ -64,6 +64,7 @@ def test_describing_a_system_imports_sympy_alone() -> None:
     assert imported(PENDULUM.format(blocked=())) == {"sympy", "mpmath"}
 
 
+@pytest.mark.slow
 def test_a_derivation_needs_no_machine_code_units_or_files() -> None:
     """From a blank page to the text, on a machine where nothing but SymPy and NumPy is installed."""
     blocked = sorted(HEAVY - {"sympy", "mpmath", "numpy"})

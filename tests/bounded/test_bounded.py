@@ -298,6 +298,7 @@ def test_only_exact_sums_of_products_are_multiplied_out_without_sympy(expr: sp.E
     assert bounded.expand(expr) == sp.expand(expr)
 
 
+@pytest.mark.slow
 def test_sums_are_multiplied_out_as_sympy_does() -> None:
     source = Random(7)
     moving = [q, w, q.diff(t), sp.sin(q), sp.cos(q + w), a, b, c, sp.pi]

@@ -22,6 +22,7 @@ def kept() -> Iterator[None]:
         gc.enable()
 
 
+@pytest.mark.slow
 def test_less_often_within_and_as_before_after_an_error() -> None:
     gc.set_threshold(500, 7, 8)
     with pytest.raises(ValueError, match="inside"), bounded.rarely_collected():

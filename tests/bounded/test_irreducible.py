@@ -28,6 +28,7 @@ def sum_of_products(source: random.Random) -> sp.Expr:
     return sp.expand(whole * (source.choice(LETTERS) + 1)) if source.random() < 0.3 else whole
 
 
+@pytest.mark.slow
 def test_it_is_what_sympy_finds() -> None:
     source, seen = random.Random(4), 0
     for _ in range(150):

@@ -44,7 +44,7 @@ sol = A\\[F - b*xd - k*x + m*l*thd^2*sin(th); -m*g*l*sin(th)];
 xdd = sol(1); thdd = sol(2);"""
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("body", [SOLVED, CRAMER, LINEAR])
 @pytest.mark.parametrize("given", [FIELDS, COLUMN, DEALT])
 def test_accelerations_as_outputs(given: str, body: str) -> None:

@@ -134,7 +134,7 @@ eq1 = (M+m)*pdd + m*l*cos(a)*add + diff(diff(Ts,pd),a)*ad + b*pd == F;
 eq2 = diff(Ts,ad,2)*add + m*l*cos(a)*pdd + diff(diff(Ts,ad),a)*ad - diff(Ts,a) + diff(Vs,a) == 0;"""
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -320,6 +320,7 @@ eom = MM*[xdd; thdd] + [b*xd - F - m*l*thd^2*sin(th); -m*g*l*sin(th)]"""
     assert not right(program.replace("J/2", "J"))
 
 
+@pytest.mark.slow
 def test_named_accelerations_are_fewer_where_constraints_are_put_in() -> None:
     sys = System("wheel that pulls a box")
     x, phi, y = sys.coordinates("x phi y")

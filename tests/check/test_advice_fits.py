@@ -93,6 +93,7 @@ J phi'' - r k (y - r phi) = 0
 """
 
 
+@pytest.mark.slow
 def test_a_wrong_height_is_not_offered_as_a_wrong_kinetic_energy() -> None:
     assert bell().check(BELL).right
     wrong = BELL.replace("y + h cos(theta)", "y + h sin(theta)").replace("+ m g h sin(theta)", "- m g h cos(theta)")
@@ -128,6 +129,7 @@ JIB = """(J + m s^2 + n (p + s/2)^2) phi'' + (2 m s + n (p + s/2)) s' phi' = -c 
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "said", "advice"),
     [
@@ -194,6 +196,7 @@ A theta'' + c (phi' + theta') = n tau
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "said", "advice"),
     [

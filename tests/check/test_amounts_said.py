@@ -62,6 +62,7 @@ TRUE = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("line", TRUE)
 @pytest.mark.parametrize("row", [ROW, LETTERS])
 def test_a_true_amount_is_right_beside_the_equation(row: str, line: str) -> None:
@@ -86,6 +87,7 @@ WRONG = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("line", "told"), WRONG)
 @pytest.mark.parametrize("row", [ROW, LETTERS])
 def test_a_wrong_amount_is_told_by_its_number_and_is_no_equation(row: str, line: str, told: str) -> None:
@@ -167,6 +169,7 @@ def test_letters_that_amount_to_nothing_are_worked_out(row: str) -> None:
 RELATION = "'{}' was not judged: it is a relation of parameters that holds with the values of the system, and no "
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("relation", ["4 l = 9 a", "k a^2 = 8 m l*80/27", "9 a - 4 l = 0"])
 @pytest.mark.parametrize("row", [ROW, LETTERS])
 def test_a_relation_of_parameters_that_holds_is_no_equation_of_motion(relation: str, row: str) -> None:

@@ -67,6 +67,7 @@ def test_hamiltons_equations_alone_say_what_the_momentum_is(p: str, rate: str) -
     assert not roller().check(rows.replace("(3 m)", "(5 m)"), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_speed_that_nothing_uses_is_no_definition() -> None:
     right = "(M+m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F\n"
     right += "(J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0\n"

@@ -49,6 +49,7 @@ def right_lines(verdict: lg.CheckedAnswer) -> set[int]:
     return {f.line.number for f in verdict.findings if f.status.right}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "change",
     [
@@ -64,6 +65,7 @@ def test_right_balances_in_either_sense_are_judged(change: dict[str, str]) -> No
     assert not any("one by one" in str(n) for n in verdict.notes)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("more", ["m g", "2 m g"])
 @pytest.mark.parametrize("results", [True, False])
 def test_balances_that_cancel_are_not_called_right(more: str, results: bool) -> None:

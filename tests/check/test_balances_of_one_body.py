@@ -47,10 +47,12 @@ def told(derivation: lg.Derivation, answer: str) -> str:
     return " ".join(verdict.to_text().split())
 
 
+@pytest.mark.slow
 def test_right_balances_are_right() -> None:
     assert trolley().check(RODS).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("title", ["trolley: ", "trolley, forces along x: ", ""])
 def test_a_reaction_that_is_not_drawn(title: str) -> None:
     page = told(trolley(), LACKING.replace("trolley: ", title))
@@ -111,6 +113,7 @@ L' = 0
 SHORT = EULER.replace(" - (B - A)*w3*w1", "").replace(" + B - A)*psi'^2", ")*psi'^2")
 
 
+@pytest.mark.slow
 def test_euler_s_equation_without_its_gyroscopic_term() -> None:
     assert rotor().check(EULER).right
     for added in ("", "\nN = B*theta''"):
@@ -143,6 +146,7 @@ psi'' = (M22*r1 - M12*r2)/D
 theta'' = (M11*r2 - M12*r1)/D"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "said"),
     [
@@ -164,6 +168,7 @@ moment of the camera's inertia force about the tilted axis: m*ax*a*sin(theta)
 """
 
 
+@pytest.mark.slow
 def test_a_moment_of_an_acceleration_that_has_a_name() -> None:
     answer = COMPONENTS + TILT.format(" + B - A")
     assert rotor().check(answer).right

@@ -132,6 +132,7 @@ def test_rest_for_certain_parameters_alone(line: str, right: bool) -> None:
     assert drum().check(f"{DRUM}\n{line}", hint=0).right is right
 
 
+@pytest.mark.slow
 def test_forces_of_constraints_at_rest_are_a_remark() -> None:
     rows = "(m + M) x'' = F - k x - H\nJ phi'' = R H\nx' = R phi'"
     said = "Sanity: everything at rest -> F = k x, H = 0. OK!"
@@ -178,6 +179,7 @@ def test_all_that_words_of_rest_introduce_is_about_rest(said: str, forces: list[
     assert all(f"'{force}' was not judged: it is about the position at rest." in notes for force in forces)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

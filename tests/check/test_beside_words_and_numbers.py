@@ -54,6 +54,7 @@ def hoist() -> Derivation:
 ROWS = "M s'' + M g - k δ1 = 0\nI α'' + k a δ1 = -b α'"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", ["Let δ1 = a α - s be the stretch.", "δ1 = a α - s", "δ_1 = a α - s"])
 def test_a_delta_with_a_number_is_a_name(hoist: Derivation, said: str) -> None:
     energy = "L = 1/2 M s'^2 + 1/2 I α'^2 - M g s - 1/2 k δ1^2\nδW = -b α' δα"

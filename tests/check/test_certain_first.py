@@ -153,6 +153,7 @@ def test_a_name_of_the_system_that_is_stated_wrongly_is_told_by_what_it_is() -> 
     assert said == "y is r*cos(phi), not 2*r*cos(phi)."
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("below", "said"),
     [

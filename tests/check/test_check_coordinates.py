@@ -101,6 +101,7 @@ def test_a_mistake_is_named_where_a_coordinate_is_abbreviated() -> None:
     assert verdict.mistake is not None and verdict.mistake.name == "damper_sign"
 
 
+@pytest.mark.slow
 def test_an_angle_may_be_given_by_its_tangent() -> None:
     s = System("collar on a rod, pulled by a rope over a pulley")
     y = s.coordinates("y")

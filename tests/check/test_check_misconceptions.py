@@ -102,7 +102,7 @@ NAMES = [f"{n}-{m}-{k}" for k, (n, _, m) in enumerate(BY_HAND)]
 
 
 @pytest.mark.thinned(2)
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @also_in_full
 @pytest.mark.parametrize(
     ("name", "lines", "mistake"), cases(BY_HAND, BY_HAND[::3]), ids=cases(NAMES, NAMES[::3])

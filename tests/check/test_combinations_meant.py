@@ -47,6 +47,7 @@ def test_the_difference_is_right() -> None:
     assert crank().check(answer()).right
 
 
+@pytest.mark.slow
 def test_a_relative_rate_is_named_in_the_difference() -> None:
     """Only the rate is wrong: neither u nor the terms of β are."""
     verdict = crank().check(answer(rate="beta'"))

@@ -63,6 +63,7 @@ def test_one_wrong_term_is_told_alone(written: str, instead: str, said: str) -> 
     assert said in told[0]
 
 
+@pytest.mark.slow
 def test_two_wrong_terms_are_not_told_as_one() -> None:
     wrong = ANSWER.replace("= -k theta", "= -2 k theta").replace("+ c psi' - N a", "- c psi' - N a")
     assert not any("should be k*theta" in x or "c*psi' has" in x for x in differing(wrong)) or len(differing(wrong)) > 1

@@ -209,6 +209,7 @@ def judged(derivation: lg.Derivation, written: str) -> Status:
 ROLLING = "m x'' - m g sin(alpha) = lambda\nJ phi'' = -r lambda\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("integrated", ["x = r phi", "phi - x/r = 0", "x = r (phi - pi/2)"])
 def test_a_condition_of_rolling_may_be_integrated(wheel: lg.Derivation, integrated: str) -> None:
     assert wheel.check(ROLLING + integrated, hint=0).right

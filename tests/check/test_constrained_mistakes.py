@@ -44,6 +44,7 @@ def test_a_multiplier_takes_up_no_mistake(puck: lg.Derivation, row: tuple[str, s
     assert verdict.mistakes and verdict.mistakes[0].coordinate in ("r", None)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "kinds", "element"),
     [
@@ -154,6 +155,7 @@ def trolley() -> lg.Derivation:
     return system.derive()
 
 
+@pytest.mark.slow
 def test_a_wrong_constraint_is_one_mistake_with_the_factors_that_follow(trolley: lg.Derivation) -> None:
     rows = "M*s'' + k*s = 0\nm*x'' = 2*lambda*x\nm*y'' = 2*lambda*y - m*g"
     verdict = trolley.check(f"x^2 + y^2 = l^2\n{rows}")
@@ -162,6 +164,7 @@ def test_a_wrong_constraint_is_one_mistake_with_the_factors_that_follow(trolley:
     assert [f.follows for f in verdict.findings if not f.status.right] in ([False, True], [False, True, True])
 
 
+@pytest.mark.slow
 def test_a_multiplier_with_another_factor_in_one_equation_is_one_mistake(trolley: lg.Derivation) -> None:
     rows = "M*s'' + k*s = -2*lambda*(x-s)\nm*x'' = lambda*(x-s)\nm*y'' = 2*lambda*y - m*g"
     (mistake,) = trolley.check(rows).mistakes

@@ -65,6 +65,7 @@ NOT_FROM_REST = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", FROM_REST)
 def test_the_weight_drops_out_from_the_position_at_rest(said: str) -> None:
     equation = "m x'' + c x' + k x = F" if "$" not in said else r"\[ m\ddot x + c\dot x + kx = F \]"
@@ -110,6 +111,7 @@ def test_upwards_and_from_rest() -> None:
     assert not lift().check(said.format("")).right
 
 
+@pytest.mark.slow
 def test_an_angle_is_counted_from_another_axis() -> None:
     level = "(J + m l^2) theta'' + m g l cos(theta) = M"
     assert rod().check(f"theta is measured from the horizontal\n{level}").right
@@ -160,6 +162,7 @@ def hoist() -> lg.Derivation:
 HELD = "\n\nJ φ'' + k R (R φ - x) = n u\n\nm x'' + k (x - R φ) = 0"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

@@ -92,7 +92,7 @@ def test_the_corpus_is_large_and_its_names_are_the_checker_s():
     assert len({a["id"] for a in CORPUS}) == len(CORPUS)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @size.also_in_full
 @pytest.mark.parametrize("system", SYSTEMS if size.FULL else sorted(set(SYSTEMS) - LARGE))
 def test_no_right_answer_is_rejected_and_no_wrong_one_accepted(system):

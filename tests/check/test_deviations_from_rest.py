@@ -40,7 +40,7 @@ SAID = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("said", SAID)
 def test_the_weights_drop_out_of_deviations(said: str) -> None:
     assert hoist().check(SAID[said] + "\n" + EQUATIONS).right

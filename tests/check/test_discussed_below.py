@@ -71,12 +71,14 @@ def test_limits_in_a_list_of_latex_are_remarks() -> None:
     )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", SPECIAL)
 @pytest.mark.parametrize(("right", "wrong"), [("+ k x = F\n", "- k x = F\n"), ("+ m g l sin", "+ m g sin")])
 def test_equations_above_a_discussion_are_judged(said: str, right: str, wrong: str) -> None:
     assert not cart().check(f"{EQUATIONS.replace(right, wrong)}\n{said}\n").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -112,6 +114,7 @@ m u'' - m u phi'^2 + m g sin(phi) + k u = 0
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "is_right"),
     [
@@ -149,6 +152,7 @@ def strut() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_value_at_a_position_is_no_other_value_of_a_name() -> None:
     verdict = strut().check(f"{gate()}For phi = 90°: q = sqrt(a^2 + l^2).")
     assert verdict.right, verdict.to_text()

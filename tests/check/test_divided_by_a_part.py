@@ -27,6 +27,7 @@ def test_other_mistakes_are_none_of_a_divisor(wrong: str) -> None:
     assert not verdict.right and all("divided by" not in str(m.what) for m in verdict.mistakes)
 
 
+@pytest.mark.slow
 def test_two_terms_missing_at_once_are_one_divisor() -> None:
     """The trailer and its load, which swings, lag behind the car: both accelerations lack the mass of the load."""
     s = lg.System("car and trailer")

@@ -188,6 +188,7 @@ OF_ROLLER = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", OF_ROLLER)
 @pytest.mark.parametrize("above", [True, False])
 def test_a_sentence_beside_right_equations_may_say_the_energy_of_one_element(said: str, above: bool) -> None:

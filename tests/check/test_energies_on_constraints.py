@@ -81,7 +81,7 @@ def test_a_third_coordinate_with_two_constraints_is_right() -> None:
     assert lid().check(THREE, hint=0).right
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("written", "instead"),
     [

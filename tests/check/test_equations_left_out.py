@@ -24,6 +24,7 @@ def told(*lines: str) -> list[str]:
     return [str(note) for note in verdict.notes]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cart", [CART.replace("b x'", "2 b x'"), CART.replace("2 m l'", "m l'")])
 def test_the_equation_that_a_wrong_answer_lacks_is_named(cart: str) -> None:
     assert LACKS in told(cart, TURN)

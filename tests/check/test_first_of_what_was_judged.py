@@ -22,6 +22,7 @@ def told(answer: str) -> str:
     return " ".join(str(verdict).split())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("above", "which"),
     [
@@ -42,6 +43,7 @@ def test_a_formula_without_a_verdict_may_be_the_first(above: str, which: str) ->
     assert FIRST not in said
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "above",
     [

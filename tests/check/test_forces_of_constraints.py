@@ -168,7 +168,7 @@ def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
     assert lift().check(ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT, hint=0).right
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("turned", rest_slow([False, True], {False}))
 @pytest.mark.parametrize("right", rest_slow(TWINS_OF_ROOT, {"cos(theta) - a sin", "+ m g u = tau"}))
 def test_wrong_twins_of_a_constraint_that_is_solved_with_a_root(right: str, turned: bool) -> None:

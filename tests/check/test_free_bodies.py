@@ -141,6 +141,7 @@ J phi'' = tau - e (H_t cos(beta) + H_n sin(beta))
 (J + m e^2) phi'' + m a e cos(beta) (phi'' + beta'') - m a e sin(beta) (phi' + beta')^2 = tau"""
 
 
+@pytest.mark.slow
 def test_forces_between_which_long_relations_hold_are_given_up() -> None:
     said = "H_n acts along the rod (outward), H_t at right angles to it.\n"
     assert check_answer(flail(), said + FLAIL).right

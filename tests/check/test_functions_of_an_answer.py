@@ -67,7 +67,7 @@ def test_unit_vectors_are_functions_of_an_angle(now: str, wrong: str) -> None:
     assert now in ARM and not arm().check(ARM.replace(now, wrong), hint=0).right
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [("c u^3", "c u^2"), ("= f(y - x)", "= f(x - y)"), ("-f(y - x)", "-f(y)"), ("f(u) = k u", "f(u) = 2 k u")],
@@ -77,6 +77,7 @@ def test_a_force_is_a_function_of_a_deflection(now: str, wrong: str) -> None:
     assert now in FORCE and not masses().check(FORCE.replace(now, wrong), hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("letter", "last"), [("K", "½·K·φ̇²"), ("R", "½·R·φ̇²"), ("K", "½·K(ψ)·φ̇²")], ids=["K", "R of the system", "K(ψ)"]
 )

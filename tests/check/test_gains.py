@@ -79,6 +79,7 @@ def test_of_another_angular_velocity() -> None:
         assert found == written("acrobot", new, at.of.rotation(body))
 
 
+@pytest.mark.slow
 def test_the_changes_of_a_system_take_few_calls() -> None:
     """Of Python's functions: where each changed energy is written out, more than half as many again."""
     model = derivation("double-pendulum")

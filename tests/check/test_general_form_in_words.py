@@ -33,7 +33,7 @@ def test_right_entries_are_right_equations(head: str) -> None:
     assert "was not judged" not in str(verdict)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("head", [HEAD, PLAIN])
 @pytest.mark.parametrize(
     ("name", "value", "line"),

@@ -35,6 +35,7 @@ FORMS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("form", "right"), FORMS.items())
 def test_an_equation_may_have_the_root(form: str, right: bool) -> None:
     verdict = hatch("s").check(ROW.format(form))
@@ -49,6 +50,7 @@ in numbers: (120 - 100 sin θ) θ'' - {rate} cos θ θ'^2 - 196.2 sin θ + 3 θ'
 ROUNDED = {("50", "20"): True, ("50", "21"): False, ("51", "20"): False}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("numbers", "right"), ROUNDED.items())
 def test_numbers_beside_a_function_of_half_an_angle(numbers: tuple[str, str], right: bool) -> None:
     rate, force = numbers
@@ -66,6 +68,7 @@ OTHERS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("numbers", "right"), OTHERS.items())
 def test_such_numbers_may_be_rounded(numbers: tuple[str, ...], right: bool) -> None:
     mass, part, rate, force = numbers

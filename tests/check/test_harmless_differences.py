@@ -108,7 +108,7 @@ EXPANDED = "m/2*(r'^2 + r^2*(theta' + Omega)^2 + a^2*Omega^2 + {}*(r'*sin(theta)
 RELATIVE_ALONE = "In the velocity of particle 'slider', theta' alone stands in place of Omega + theta'."
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("energy", "name", "words"),
     [
@@ -137,6 +137,7 @@ def test_a_constant_is_no_difference_of_a_wrong_energy(carried: lg.Derivation) -
     assert {o.element for d in finding.differences for o in d.origins} <= {"particle 'slider'"}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "named"),
     [

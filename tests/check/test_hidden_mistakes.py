@@ -18,6 +18,7 @@ def told(answer: str) -> list[str]:
     return [str(note) for note in found.notes]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -83,6 +84,7 @@ def test_words_behind_an_equation_that_may_change_it_are_told(said: str) -> None
     assert any("Words on line 1 may change" in x for x in told(ROWS.replace("= F", f"= F {said}")))
 
 
+@pytest.mark.slow
 def test_a_force_is_right_with_another_coordinate_only_where_the_equations_use_that() -> None:
     force = "Q_theta = -(F - b x') l cos(theta)"
     assert not CART.check(f"w = x + l sin(theta)\n{force}\n{ROWS}", hint=0).right

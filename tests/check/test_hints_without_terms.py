@@ -57,6 +57,7 @@ def words_of(said: str, model: Model) -> str:
     return said
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", rest_slow(SYSTEMS, {"cart-pole", "lecture-2", "lecture-3b"}))
 def test_level_2_of_every_mistake_has_a_kind_and_a_place_and_no_term(name: str) -> None:
     model = derivation(name).model
@@ -85,6 +86,7 @@ def test_every_kind_of_mistake_is_told() -> None:
     assert known <= NAMED
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "answer"),
     [

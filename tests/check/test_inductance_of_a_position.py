@@ -74,6 +74,7 @@ CHOKE_IN_LATEX = r"""\[ \psi = L\dot q - c\dot q^3, \qquad CO = \tfrac12 L\dot q
 \[ (L - 3 c\dot q^2)\ddot q + R\dot q = u \]"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "co", "stored"),
     [

@@ -219,6 +219,7 @@ U' = m·g·l/2·cos α + M·g·b·cos(α/2)
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["J", "J_eff", "Theta"])
 def test_slopes_that_lines_state_are_judged(name: str) -> None:
     answer = MAST.replace("J", name)

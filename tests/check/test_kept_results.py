@@ -93,6 +93,7 @@ def test_an_answer_that_is_refused_as_too_long_is_refused_again(monkeypatch: pyt
     assert not made.check(answer).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("line", ["T = m1/2*x1'^2 + m2*x2r'^2", "Xi_x1 = 2*F", "L = m1/2*x1'^2 - k*x2r^2", "V = k*x2r"])
 def test_in_which_terms_a_line_differs_is_only_said_where_it_is_asked(line: str) -> None:
     made = built_in.derivation("lecture-3b")

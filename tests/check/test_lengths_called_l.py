@@ -45,6 +45,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["s", "L"])
 @pytest.mark.parametrize(("answer", "right"), ANSWERS.items())
 def test_a_slope_of_lengths_is_that_of_a_length(name: str, answer: str, right: bool) -> None:

@@ -117,6 +117,7 @@ def test_what_holds_a_name_is_not_its_value() -> None:
     assert right(f"(k heißt hier K, die Federkraft ist K·x)\n\n{SHEET.replace('k', 'K')}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said", ["K stands for 2 k.", "K stands for k m1.", "K stands for k (m1 - m2).", "K means sin k."]
 )
@@ -155,6 +156,7 @@ def test_a_letter_of_the_answer_is_given_names_before_units() -> None:
     assert not arm.check(f"M = 2 l\n{rows}", hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said", ["tan β = b/(m g L)", "with sin(β) = b/√(b² + m² g² L²) and so on", r"$\tan\beta = \frac{b}{mgL}$"]
 )
@@ -224,7 +226,7 @@ RATES = """(M + m) x2 + m l cos(theta) p2 - m l sin(theta) p1^2 + b x1 = F
 (J + m l^2) p2 + m l cos(theta) x2 - m g l sin(theta) = 0"""
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "legend",
     [

@@ -36,6 +36,7 @@ def wheels() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", SAID)
 @pytest.mark.parametrize("first", [True, False])
 def test_they_are_the_coordinates(said: str, first: bool) -> None:

@@ -118,6 +118,7 @@ VALUES = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("table", VALUES)
 def test_a_table_of_own_letters_with_values_and_words(table: str) -> None:
     equations = "\n\nm1 x'' + k e + c w = F\n\nm2 y'' - k e - c w = 0"

@@ -36,6 +36,7 @@ def accepted(said: str, equations: str, *, of_cart: bool = False) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", TURNS)
 def test_a_deviation_from_a_uniform_motion_may_have_any_speed(said: str) -> None:
     equations = IN_UNIFORM_LATEX if "latex" in said else IN_UNIFORM
@@ -52,6 +53,7 @@ def test_an_angle_may_be_a_uniform_rotation_and_a_deviation() -> None:
     assert not accepted(said, equations.replace(r"2mr\dot r(\Omega+\dot\delta)", r"2mr\dot r\dot\delta"))
 
 
+@pytest.mark.slow
 def test_a_steady_position_is_said_by_its_condition() -> None:
     said = "Let r* be where the puck stays at the speed W, so k (r* - a) = m r* W^2. I set z = r - r* and w = phi' - W."
     equations = """m z'' - m r* (2 W w + w^2) - m z (W + w)^2 + k z = 0
@@ -61,6 +63,7 @@ def test_a_steady_position_is_said_by_its_condition() -> None:
     assert not accepted(said.replace("m r* W^2", "2 m r* W^2"), equations)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("dots", [r"\Delta\ddot r", r"\ddot{\Delta r}"])
 @pytest.mark.parametrize("said", [r"$r=a+\Delta r$ hence $\Delta r=r-a$", r"$\Delta r=r-a$, $\Delta M=M-M_0$"])
 def test_a_difference_is_one_name(said: str, dots: str) -> None:
@@ -113,6 +116,7 @@ def test_letters_of_a_table_in_latex_are_set_against_those_of_the_sheet() -> Non
     assert not accepted(said, equations.replace("2mr", "mr"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("between", [r"@{\;$=$\;}", "@{ = }"])
 def test_an_equals_sign_may_stand_between_columns(between: str) -> None:
     said = rf"""\begin{{tabular}}{{l{between}l}}
@@ -140,6 +144,7 @@ VALUES = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", VALUES)
 def test_a_name_is_a_sum_in_words(said: str) -> None:
     equations = "m r'' = P\n(J + m r^2) phi'' + 2 m r r' phi' = M"
@@ -162,6 +167,7 @@ def test_a_name_is_a_product_in_words(said: str) -> None:
     assert not accepted(said.replace("r - a", "r + a"), equations)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("verb", ["are", "are short for", "stand for", "for"])
 def test_several_names_have_as_many_values(verb: str) -> None:
     said = f"We agreed that cg, sg {verb} cos(phi), sin(phi)."

@@ -57,6 +57,7 @@ def test_a_lagrangian_in_the_letter_of_a_length_is_read(said: str) -> None:
     assert ("L" in kinds) == ("alone" not in said)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", WRONG)
 def test_a_wrong_one_is_told(said: str) -> None:
     verdict = door().check(f"{ENERGIES}{WRONG[said]}\n{EQUATION}")

@@ -69,6 +69,7 @@ def belt() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", RIGHT)
 def test_the_mass_and_the_matrix_are_told_apart(form: str) -> None:
     verdict = belt().check(RIGHT[form])
@@ -77,7 +78,7 @@ def test_the_mass_and_the_matrix_are_told_apart(form: str) -> None:
     assert len(equations) == 2
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("what", WRONG)
 def test_a_wrong_one_is_told(what: str) -> None:
     written, put = WRONG[what]
@@ -116,6 +117,7 @@ ENTRIES = r"""\[ (M + m)\ddot x + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin
 \boldsymbol\Xi = \begin{bmatrix} F - b\dot x \\ 0 \end{bmatrix} \]"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("bold", [r"\mathbf ", r"\boldsymbol ", r"\bm "])
 @pytest.mark.parametrize(
     ("old", "new"),
@@ -150,6 +152,7 @@ SPARSE_IN_LATEX = r"""\[ \mathbf M\ddot{\mathbf q} + \mathbf C\dot{\mathbf q} + 
 \mathbf Q = \begin{bmatrix} F \\ 0 \end{bmatrix} \]"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("written", [SPARSE, SPARSE_IN_LATEX])
 @pytest.mark.parametrize("said", ["all other entries are 0", "The remaining elements are zero", "other entries vanish"])
 @pytest.mark.parametrize(("old", "new"), [("", ""), ("= -m l", "= m l"), ("= M +", "= M -"), ("= b", "= -b")])

@@ -65,6 +65,7 @@ REDUCED = """Rolling: r phi' = s psi'
 m s'' - m s psi'^2 + k s = 0"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "told"),
     [
@@ -99,6 +100,7 @@ s)    m s'' - m s psi'^2 + k s = 0
 phi)  J phi'' = - c phi' - lam r"""
 
 
+@pytest.mark.slow
 def test_an_energy_from_which_an_equation_follows_is_told_beside_multipliers() -> None:
     assert mill().check(WITH_FORCE).right
     verdict = mill().check(WITH_FORCE.replace("m s'^2/2 + ", "").replace("m s'' - ", "- "))
@@ -160,6 +162,7 @@ V = m g l/2 Cos[psi[t]] - M g z[t];
 eq = D[D[T - V, psi'[t]], t] - D[T - V, psi[t]] == 0"""
 
 
+@pytest.mark.slow
 def test_a_program_puts_in_what_it_has_given() -> None:
     assert crank().check(PROGRAM).right
     verdict = crank().check(PROGRAM.replace("m l^2/4", "m l^2/3"))

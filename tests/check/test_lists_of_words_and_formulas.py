@@ -54,7 +54,7 @@ def wrong_lines(answer: str) -> list[int]:
     return [f.line.number for f in verdict.findings if f.status is Status.WRONG]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("said", WITH_RHO)
 def test_a_length_in_a_list_is_used(said: str) -> None:
     answer = f"{WITH_RHO[said]}\n{BY_RHO}"
@@ -72,6 +72,7 @@ def test_a_word_alone_in_front_is_a_word() -> None:
     assert wrong_lines(said.replace("+ d", "- d") + BY_RHO) == [3]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", WITH_BOB)
 def test_an_acceleration_in_a_list_is_used(said: str) -> None:
     answer = f"{WITH_BOB[said]}\n{BY_BOB}"

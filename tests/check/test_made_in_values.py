@@ -36,6 +36,7 @@ def test_right_matrices_are_right() -> None:
     assert pole(matrices()).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("text", "line", "term"),
     [
@@ -99,6 +100,7 @@ e2 = Eq(L.diff(theta.diff(t)).diff(t) - L.diff(theta), Q2)
     assert wrong(checked) == [(10, False), (12, True)]
 
 
+@pytest.mark.slow
 def test_solved_equation() -> None:
     """An inertia in a denominator, and a numerator that is put together in steps."""
     text = """Jt = J + m*l^2 - m*l^2*cos(theta)^2*m/(M + m);

@@ -19,6 +19,7 @@ def right(written: str) -> bool:
     return cart().check(written, hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "mark",
     [
@@ -62,6 +63,7 @@ def test_a_name_below_a_brace_may_be_used_behind_another_name() -> None:
 X, P = "(M + m) x'' + m l (phi'' C - phi'^2 S) + k x = 0", "l phi'' + x'' C + g S = 0"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

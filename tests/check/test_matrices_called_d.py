@@ -11,6 +11,7 @@ from small_systems import mass
 EQUATION = "m x'' + b x' + k x = F"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "beside",
     [

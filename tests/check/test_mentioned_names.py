@@ -14,6 +14,7 @@ from lagrangian.check.reading.said.mentioned import mentioned_names
 from lagrangian.errors import ParseError
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "of", "name"),
     [
@@ -33,6 +34,7 @@ def test_a_name_whose_explanation_was_not_read_is_asked_about(answer: str, of: l
         of.check(answer)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "of"),
     [

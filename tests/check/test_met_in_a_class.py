@@ -55,6 +55,7 @@ M = | 0   J |     D = | d b   d b^2 |     K = | c b - k a   k a^2 + c b^2 |
 M [y''; theta''] + D [y'; theta'] + K [y; theta] = [F; 0]"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("open_close", ["||", "[]"])
 def test_the_names_of_matrices_may_stand_on_any_of_their_lines(open_close: str) -> None:
     text = re.sub(r"\|([^|\n]*)\|", lambda m: f"{open_close[0]}{m[1]}{open_close[1]}", BELOW)

@@ -52,6 +52,7 @@ def rod() -> Derivation:
 ROWS = "(M + 2*m)*x'' + k*x = F\n(J + 2*m*l^2)*{a}'' + c*{a}' = tau"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["al", "alp", "alpha"])
 def test_two_letters_of_an_angle_are_its_name(name: str) -> None:
     verdict = slider().check(f"T = 1/2*M*x'^2 + m*x'^2 + m*l^2*{name}'^2 + 1/2*J*{name}'^2\n" + ROWS.format(a=name))
@@ -60,6 +61,7 @@ def test_two_letters_of_an_angle_are_its_name(name: str) -> None:
     assert not slider().check(ROWS.format(a=name).replace("2*m*l", "m*l")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["lambda", "lam", "lmbda"])
 def test_the_name_of_a_multiplier_is_no_product(name: str) -> None:
     text = f"with the multiplier {name}\nm x'' + b x' + k (x - a) = {name}\nd y'' - d g = {name}\nx + y = l"
@@ -91,6 +93,7 @@ V = 1/2*k*x^2
 """
 
 
+@pytest.mark.slow
 def test_energies_behind_names_in_a_list_are_parts() -> None:
     right = LIST.format(bobs="m*(x'^2 + l^2*alpha'^2)") + ROWS.format(a="alpha")
     verdict = slider().check(right)
@@ -110,6 +113,7 @@ CART_POLE = """(M+m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b 
 WHOLE = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "rows",
     [
@@ -185,6 +189,7 @@ end
     assert any("the loop in line 8 adds to it" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "energy",
     [

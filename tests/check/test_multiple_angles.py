@@ -39,6 +39,7 @@ FORMS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", FORMS)
 def test_a_constant_before_a_coordinate_belongs_to_the_angle(form: str) -> None:
     written = FORMS[form]
@@ -46,6 +47,7 @@ def test_a_constant_before_a_coordinate_belongs_to_the_angle(form: str) -> None:
     assert not planet().check(written.replace("n + 1", "n - 1").replace("n+1", "n-1").replace("n^2", "n")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", FORMS)
 def test_so_does_one_before_an_angle_with_another_name(form: str) -> None:
     """An own θ, whose rates the answer writes, stands for the angle of the arm: sin n θ is sin(n θ)."""

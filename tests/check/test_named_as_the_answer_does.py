@@ -35,6 +35,7 @@ def dial() -> Derivation:
 T = "T = 1/2 m (r'^2 + r^2 psi'^2) + 1/2 J psi'^2\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("radial", "turning", "told"),
     [

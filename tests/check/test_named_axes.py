@@ -44,6 +44,7 @@ ROD, WHEEL = "nu*t + beta", "nu*t"
 ON_WHEEL = "s' cos(beta) - s (nu + beta') sin(beta)", "s' sin(beta) + s (nu + beta') cos(beta) + e nu"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [1, -1])
 def test_sine_and_cosine_exchanged_in_the_velocity_of_the_pivot(order: int) -> None:
     said = ("s' + e nu cos(beta)", "s (nu + beta') + e nu sin(beta)")[::order]

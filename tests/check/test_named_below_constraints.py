@@ -76,6 +76,7 @@ M u'' + M g sin(beta) - 2 λ (u + x cos(beta)) = 0
 x^2 + u^2 + 2 x u cos(beta) = l^2"""
 
 
+@pytest.mark.slow
 def test_the_wrong_term_of_a_squared_distance_is_named(strut: lg.Derivation) -> None:
     right = STRUT.replace("+ 2 x u", "- 2 x u").replace("x + u cos", "x - u cos").replace("u + x cos", "u - x cos")
     assert strut.check(right).right
@@ -104,6 +105,7 @@ def test_the_number_of_a_term_of_the_second_derivative_is_named(strut: lg.Deriva
     )
 
 
+@pytest.mark.slow
 def test_a_wrong_relation_of_virtual_displacements_is_the_mistake(strut: lg.Derivation) -> None:
     """What is reduced with it follows; another sign that is right stays right."""
     lines = """virtual displacements: (x - u cos(beta)) dx + (u - x cos(beta)) du = 0
@@ -154,6 +156,7 @@ PUT_IN = """(I + 4 M l^2 sin(alpha)^2) alpha'' + 4 M l^2 sin(alpha) cos(alpha) a
 (m + J/R^2) x'' + k (x - l sin(alpha)) = 0"""
 
 
+@pytest.mark.slow
 def test_what_is_reduced_with_a_wrong_rate_follows(press: lg.Derivation) -> None:
     rate = "y' = -2 l sin(alpha) alpha', δy = -2 l sin(alpha) δalpha"
     assert press.check(f"{rate}\n{PUT_IN}").right

@@ -46,6 +46,7 @@ def rolling() -> lg.Derivation:
 D = "D = b/2 ({hinge})^2 + d/2 ({oil})^2"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("hinge", "oil", "said"),
     [
@@ -68,6 +69,7 @@ J phi'' = -c (phi' + x'/R)"""
 RIGHT = {"T": "", "more": "", "tube": "2"}
 
 
+@pytest.mark.slow
 def test_an_element_that_belongs_to_every_force_is_not_counted_in_every_force_wrongly() -> None:
     assert rolling().check("Q_x = 2 F - c/R (phi' + x'/R)\nQ_phi = -c (phi' + x'/R)", hint=0).right
     words = told(rolling(), "Q_x = 2 F - c (phi' + x'/R)\nQ_phi = -c (phi' + x'/R)")
@@ -119,6 +121,7 @@ def sleeve() -> lg.Derivation:
 SOLVED = "r'' = r theta'^2 - d r'/m\ntheta'' = (tau - b theta' - 2 m r r' theta')/({})"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("below", "said"),
     [

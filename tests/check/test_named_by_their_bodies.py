@@ -32,6 +32,7 @@ def sheet(first: str, second: str, hook: str) -> str:
     return f"{first}\n{second}\nT = 1/2 m1 y'^2 + 1/2 M ({hook})^2\nV = 1/2 k u^2"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "value", "ending"),
     [

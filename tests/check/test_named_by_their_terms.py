@@ -96,6 +96,7 @@ def test_a_kinetic_energy_with_an_index_is_that_of_derivatives_and_a_wrong_funct
     assert not any("T_rel" in str(note) and "not judged" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.slow
 def test_a_wrong_function_is_told_by_the_term_that_has_it() -> None:
     rows = "m r'' - m r theta'^2 + k r = m a w^2 sin(w t) sin(theta)\n"
     said = first(shaken(), f"{rows}m r^2 theta'' + 2 m r r' theta' = m a w^2 r sin(w t) sin(theta)")

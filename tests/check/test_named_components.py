@@ -23,7 +23,7 @@ def test_components_along_turning_axes_are_right(said: str) -> None:
     assert "axis turned by θ" in " ".join(verdict.to_text().split())
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "wrong", "told"),
     [
@@ -139,6 +139,7 @@ def test_a_component_is_told_in_the_sense_of_its_own_rate() -> None:
     assert turned_to(truth, forth, said) == 1
 
 
+@pytest.mark.slow
 def test_the_rate_of_a_stated_coordinate_is_right() -> None:
     """s′ = R φ′ below "(s = R φ)" is no wrong line in an answer in φ."""
     s = System("barrel")

@@ -28,6 +28,7 @@ WRONG = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("left", ["p_phi'", "d/dt p_phi", "dp_phi/dt"])
 @pytest.mark.parametrize("written", WRONG)
 def test_a_wrong_rate_of_a_momentum_is_explained_in_its_line(left: str, written: str) -> None:

@@ -34,6 +34,7 @@ def test_the_rate_of_a_damper_is_told_in_the_sense_of_the_right_one(collar: lg.D
     assert "inner derivative" in str(mistake.why)
 
 
+@pytest.mark.slow
 def test_a_rate_that_is_that_of_a_coordinate_has_no_inner_derivative(vane: lg.Derivation) -> None:
     verdict = vane.check("Q_phi = -d (phi' + Omega)")
     (mistake,) = verdict.mistakes
@@ -114,6 +115,7 @@ def spreader() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_what_has_the_wrong_sign_in_one_equation_is_not_left_out_twice(spreader: lg.Derivation) -> None:
     rows = (
         "(M L^2/3 + m s^2) phi'' + 2 m s s' (phi' + Omega) {} (M L/2 + m s) R Omega^2 sin(phi) = 0\n"
@@ -138,6 +140,7 @@ def hung() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_another_angle_is_told_as_that_and_not_as_a_piece_that_nobody_wrote(hung: lg.Derivation) -> None:
     energy = "u = A sin(Omega t)\nT = m/2 (u'^2 + r'^2 + r^2 th'^2 + 2 u' r' sin({0}) + 2 u' r th' cos({0}))"
     assert not hung.check(energy.format("th - beta")).mistakes

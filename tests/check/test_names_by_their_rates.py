@@ -24,7 +24,7 @@ SAID = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("said", SAID)
 def test_the_name_is_the_velocity(said: str) -> None:
     equations = EQUATIONS if said != "below" else EQUATIONS.strip() + "\nw' = phi''"
@@ -44,6 +44,7 @@ def test_a_sum_and_a_multiple_of_rates() -> None:
     assert not rod().check(equations.replace("w^2/9", "w^2/3")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("rate", ["dw/dt", "w'", "wdot"])
 def test_words_in_front_of_a_sum(rate: str) -> None:
     """v is the speed of a mark on a tape that the motor winds: v = a φ̇ + ṙ."""

@@ -61,7 +61,7 @@ def test_right_numbers_beside_letters(system: str, answer: str) -> None:
     assert derivation(system).check(answer, hint=0).right
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     ("system", "answer", "lines", "told"),
     [
@@ -101,7 +101,7 @@ def test_a_letter_that_was_forgotten_is_missed(system: str, answer: str, one: st
     assert not one or f"right with {one}" in checked.to_text()
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("weight", "right"), [("9.81", True), ("g", True), ("8.81", False), ("9.81*2", False)])
 def test_a_mass_of_1_is_a_number_where_the_stiffness_is_one(weight: str, right: bool) -> None:
     sled = loads(SLED).derive()

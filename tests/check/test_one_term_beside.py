@@ -114,6 +114,7 @@ def test_the_arm_of_a_force_is_told_beside_another_mistake() -> None:
     assert not any("other ways" in str(n) for n in verdict.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mass", ["M", "m"])
 def test_one_mass_for_two_is_told_as_it_is_written(mass: str) -> None:
     shaker = system(SHAKER)

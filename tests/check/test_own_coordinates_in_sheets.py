@@ -225,6 +225,7 @@ m*h^2*(u'' - phi'' - u*phi'^2) + b*h^2*u' + k*h^2*u = 0
     assert not table().check(rows.replace("Q_2 = -b*h^2", "Q_s = -b*h^2"), hint=0).right
 
 
+@pytest.mark.slow
 def test_equations_side_by_side_in_one_row_are_two() -> None:
     rows = r"""\begin{align}
   Q_\varphi &= \tau - d \dot\varphi & Q_s &= -b \dot s

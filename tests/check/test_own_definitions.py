@@ -69,6 +69,7 @@ def test_a_wrong_angular_velocity_is_the_mistake_and_the_rest_follows(drum: lg.D
     assert found(verdict) == [(1, False, False), (2, False, True), (3, True, False), (4, False, True), (5, False, True)]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "rows"),
     [
@@ -127,6 +128,7 @@ J psi'' + b psi' = M
 m (R - r)^2 phi'' + m g (R - r) sin(phi) = 0"""
 
 
+@pytest.mark.slow
 def test_parts_of_t_are_judged_where_no_t_is_stated(drum: lg.Derivation) -> None:
     verdict = drum.check(PARTS)
     (mistake,) = verdict.mistakes

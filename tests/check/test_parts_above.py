@@ -19,6 +19,7 @@ def first(system: object, answer: str) -> tuple[int, str]:
     return verdict.first_wrong.line.number, " ".join(str(verdict).split())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("above", "force", "line"),
     [

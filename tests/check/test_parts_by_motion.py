@@ -49,13 +49,14 @@ def statuses(found: lg.CheckedAnswer) -> dict[int, str]:
     return {f.line.number: "right" if f.status.right else "follows" if f.follows else "wrong" for f in found.findings}
 
 
+@pytest.mark.slow
 def test_parts_by_kind_of_motion_that_are_right() -> None:
     found = ride().check(PARTS + ROWS)
     assert found.right and set(statuses(found).values()) == {"right"}, found.to_text()
     assert {2, 3, 4} <= statuses(found).keys() and "was not judged" not in found.to_text(), found.to_text()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("right", "slip", "line"),
     [
@@ -91,7 +92,7 @@ V = {n} 2 g z
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("both", "n"), [(True, "m"), (False, "1/2 m")])
 @pytest.mark.parametrize("more", ["", " + m g a beta"])
 def test_a_distance_is_no_height_from_another_place(both: bool, n: str, more: str) -> None:

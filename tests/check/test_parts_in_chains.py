@@ -50,6 +50,7 @@ def test_a_right_chain_is_right() -> None:
     assert "the kinetic energy of rigid body 'bar'" in " ".join(str(verdict).split())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("part", "whole", "inertia"), [("1/12", "1/24", "1/12"), ("1/4", "1/8", "1/4"), ("1/3", "1/3", "2/3")]
 )

@@ -89,7 +89,7 @@ def test_wrong_numbers_stay_wrong(answer: str) -> None:
     assert not plank().check(answer, hint=0).right
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "line",
     [

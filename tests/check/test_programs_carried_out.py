@@ -195,6 +195,7 @@ def test_statements_stand_on_the_lines_of_the_program() -> None:
     )
 
 
+@pytest.mark.slow
 def test_rates_of_a_state_are_what_its_entries_say_and_not_their_names() -> None:
     swapped = MATLAB.replace("dz = [z(3); thd;", "dz = [thd; z(3);")
     assert not derivation("cart-pole").check(swapped).right
@@ -331,6 +332,7 @@ def test_an_equation_of_matrices_in_a_comment_is_carried_out(program: str) -> No
     assert not judge.check(turned).right
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shown", ['print(sp.expand(left), "=", Q)', 'print(f"{sp.expand(left)} = {Q}")'])
 def test_two_sides_that_are_printed_with_an_equals_sign_are_an_equation(shown: str) -> None:
     program = SYMPY.partition("def lagrange")[0]
@@ -343,6 +345,7 @@ def test_two_sides_that_are_printed_with_an_equals_sign_are_an_equation(shown: s
     assert not cart.check(program.replace("F - b*x.diff(t)", "0*m") + shown).right
 
 
+@pytest.mark.slow
 def test_an_energy_that_a_loop_completes_is_not_judged_before() -> None:
     """What is wrong is told by what the program computes, where this leaves fewer lines wrong than its text."""
     s = lg.System("two on an arm")

@@ -66,6 +66,7 @@ def test_functions_of_julia_are_carried_out(program: str) -> None:
     assert wrong != program and not judge.check(wrong, hint=0).right
 
 
+@pytest.mark.slow
 def test_the_line_of_a_wrong_acceleration_is_that_where_it_is_computed() -> None:
     verdict = derivation("cart-pole").check(DOTTED.replace("(J + m*l^2)*f1 - ", "(J + m*l^2)*f1 + "))
     assert [f.line.number for f in verdict.findings if f.status is Status.WRONG] == [7]
@@ -104,6 +105,7 @@ def test_unknowns_beside_the_accelerations_are_multipliers(disk: lg.Derivation, 
     assert not disk.check(program.replace("1 -R", "1  R"), hint=0).right
 
 
+@pytest.mark.slow
 def test_rates_of_positions_that_are_positions_are_wrong() -> None:
     verdict = derivation("cart-pole").check(DOTTED.replace("u[3:4]", "u[1:2]"))
     assert not verdict.right and "does not agree" in " ".join(verdict.to_text().split())
@@ -146,6 +148,7 @@ end"""
         assert not cart.check(program.replace(old, new), hint=0).right
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("example", ["push(t) = 8 + 2sin(3t)\n", "push(t) = 5.0\n"])
 def test_a_function_of_time_alone_is_the_input_that_a_program_does_not_name(example: str) -> None:
     program = example + IN_PLACE.replace("F(t)", "push(t)")
@@ -156,6 +159,7 @@ def test_a_function_of_time_alone_is_the_input_that_a_program_does_not_name(exam
     assert not pole.check(program.replace("push(t) - b", "push(t)^2 - b")).right
 
 
+@pytest.mark.slow
 def test_one_function_of_time_whose_name_may_be_a_force_is_the_input_with_a_note() -> None:
     pole = derivation("cart-pole")
     said = "'push(t)' was read as F, with the value that you give it."
@@ -184,7 +188,7 @@ end
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "program",
     [

@@ -30,6 +30,7 @@ def right(text: str, example: str = "pendulum") -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("head", ["if True", "while on", "for k in range(1000)", "try"])
 def test_a_function_in_a_branch_ends_for_itself(head: str) -> None:
     behind = "except Exception:\n    pass\n" if head == "try" else ""
@@ -56,6 +57,7 @@ def placed(head: str, inside: str) -> str:
     return head + RHS.replace("    return", f"{lines}    return")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("head", "inside", "good"),
     [
@@ -83,6 +85,7 @@ def test_what_is_not_known_is_no_given_value_if_the_system_is_in_it(
         assert right(placed(head.replace("{}", given), inside.replace("{}", given)))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "bad", "good"),
     [
@@ -110,6 +113,7 @@ def rhs(t, z):
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "line",
     [
@@ -151,6 +155,7 @@ def test_a_table_that_is_changed_and_a_function_that_is_imported_are_not_known()
     assert not right(f"{acc}from lib import acc\n")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "wrong", ["2*{} if on else 1", "q[1:3:4]*{}", "weird({})", "np.clip(2*{}, -1, 1)", "{} @ {}", "load()*{}"]
 )

@@ -108,7 +108,7 @@ def right(text: str, model: str = "cart-pole") -> bool:
         return False
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -179,6 +179,7 @@ def test_a_comment_of_a_program_that_cannot_be_read_is_left_out() -> None:
     assert not wrong.right and [f.line.number for f in wrong.findings] == [4]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "program",
     [
@@ -217,7 +218,7 @@ def f(t, x, u):
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -277,6 +278,7 @@ eq2 = diff(subs(diff(Ls,Thd), new, old), t) - subs(diff(Ls,Th), new, old) == 0
 """
 
 
+@pytest.mark.slow
 def test_lists_in_braces_may_be_put_in_for_others() -> None:
     assert right(CELLS, "elastic-pendulum")
     for old, new in (("{Rd, Thd, R,", "{Rd, Thd, 2*R,"), ("t) - subs(diff(Ls,Th)", "t) + subs(diff(Ls,Th)")):
@@ -327,7 +329,7 @@ for xi, Qi in zip(x, [0, F, 0]):
 """
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -379,6 +381,7 @@ end
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("example", "program", "old", "new"),
     [

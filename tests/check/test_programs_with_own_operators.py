@@ -128,7 +128,7 @@ def right(text: str, example: str) -> bool:
         return False
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("program", "changes"),
     [
@@ -157,6 +157,7 @@ def test_operators_of_a_program_for_the_cart(program: str, changes: list[str]) -
         assert not right(program.replace(old, new), "cart-pole")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("program", "changes"),
     [
@@ -205,6 +206,7 @@ end
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("program", "changes"),
     [
@@ -235,6 +237,7 @@ def test_a_name_that_a_comment_explains_is_known_where_a_program_is_carried_out(
     assert not right(program.replace("- m*g", "+ m*g"), "cart-pole")
 
 
+@pytest.mark.slow
 def test_a_coordinate_of_the_system_that_is_made_of_another_one_is_told() -> None:
     program = TABLE.replace("x = Function('x')(t)", "psi = Function('psi')(t); x = 2*psi").replace("{x:", "{psi:")
     program = program.replace("(x, theta)", "(psi, theta)").replace("F - b*v", "2*(F - b*v)")
@@ -256,6 +259,7 @@ def rhs(t, z):
     assert not right(program.replace("dict(L", "dict(omega=2, L"), "pendulum")
 
 
+@pytest.mark.slow
 def test_a_mass_matrix_that_no_solver_gets_multiplies_nothing() -> None:
     assert right(MASS, "cart-pole")
     assert not right(MASS.replace(", opts);", ");"), "cart-pole")

@@ -104,6 +104,7 @@ def found(verdict: CheckedAnswer) -> list[tuple[int, bool, bool]]:
     return [(f.line.number, f.status.right, f.follows) for f in verdict.findings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("beside", ["", ", h = s (1 - cos(theta))"])
 def test_a_wrong_acceleration_that_a_balance_of_another_body_uses_is_the_mistake(beside: str) -> None:
     """The row of θ is right: it was not made with this acceleration."""
@@ -143,6 +144,7 @@ M r'' = S - M g
 (m + M) r'' - m r phi'^2 + c r' + M g = 0"""
 
 
+@pytest.mark.slow
 def test_a_wrong_acceleration_across_is_told_where_it_was_said() -> None:
     right = rail().check(POLAR)
     assert right.right and all(f.status.right for f in right.findings)
@@ -172,6 +174,7 @@ def test_an_angle_counted_the_other_way_is_right_beside_a_constraint() -> None:
     assert not roller().check(BETA.replace("- m g a", "+ m g a"), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_sum_that_is_written_again_is_put_right_as_well() -> None:
     verdict = roller().check(BETA.replace("I + m a^2", "I + m R^2"))
     assert found(verdict) == [(2, True, False), (3, False, False), (4, False, True), (5, True, False), (6, False, True)]
@@ -236,6 +239,7 @@ def panel() -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.slow
 def test_the_distance_from_an_axis_is_judged_as_an_arm() -> None:
     T = "T = 1/2 J phi'^2 + 1/2 m (R + s cos(theta))^2 phi'^2 + 1/2 m s^2 theta'^2"
     sheet = f"rho = R + s cos(theta)\n{T}\nV = 1/2 k theta^2"

@@ -18,6 +18,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("program", "right"), ANSWERS.items())
 def test_the_rate_of_a_coordinate_by_its_first_letter(program: str, right: bool) -> None:
     verdict = rod().check(program)

@@ -24,6 +24,7 @@ def test_a_right_balance_of_powers_is_right(letter: str) -> None:
     assert "⟨" not in str(verdict)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", ["T", "E_kin"])
 def test_a_wrong_rate_of_the_kinetic_energy_is_the_cause(letter: str) -> None:
     """The inertia depends on the position: its rate is counted with ½."""
@@ -65,6 +66,7 @@ PRIMED = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("line", "right"), PRIMED)
 def test_a_prime_of_a_function_of_a_coordinate_is_its_slope_before_a_square(line: str, right: bool) -> None:
     """And its rate elsewhere."""
@@ -79,6 +81,7 @@ SHORT = "T = 1/2 I psi'^2, I = m l^2/3 + M l^2/9 + (M/3 + mw) l^2 cos(psi)^2"
 INNER = "2 (M/3 + mw) l^2 sin(psi) cos(psi)"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("rate", "right"),
     [

@@ -46,6 +46,7 @@ def test_an_equation_that_is_wrong_otherwise_does_not_follow() -> None:
     assert lines == {3: False, 4: False}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stated", ["", "wrong speed alone"])
 def test_a_squared_speed_is_no_equation_of_motion(stated: str) -> None:
     assert cart().check(CART).right

@@ -50,6 +50,7 @@ NUMBERS = (
 """What may stand in front of an equation and is no part of it."""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_numbers_of_exercises_are_no_factors(number: str) -> None:
     assert rocker().check(number + EQUATION).right
@@ -58,6 +59,7 @@ def test_numbers_of_exercises_are_no_factors(number: str) -> None:
     assert "m g" in verdict.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("factor", ["2 ", "2 (b) ", "3 (c + b) ", "(b) ", "Exercise 3: 2 ", "Solution - (c) "])
 def test_factors_in_front_of_an_equation_stay(factor: str) -> None:
     written = factor + "theta'' = 0"
@@ -78,7 +80,7 @@ LISTS = (
 """Values with units in one word, and places where the angle is 0."""
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("listed", LISTS)
 def test_lists_of_values_may_end_in_words(listed: str) -> None:
     assert rocker().check(f"{listed}\n\n{IN_NUMBERS}").right
@@ -117,6 +119,7 @@ def discs() -> lg.Derivation:
 SHORT = "J al'' + k (al - be) - F a l sin al = 0\nb e be'' - k (al - be) = M"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("mark", ["'", "d", "_dot"])
 def test_short_names_with_rates_are_no_products_of_constants(mark: str) -> None:
     """al'' is alpha'', though there are an a and an l, of which none moves."""
@@ -156,7 +159,7 @@ TURNED = (
 )
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("said", PLACES)
 def test_values_of_an_own_coordinate_are_places(said: str) -> None:
     assert rocker().check(f"{said}\n{TURNED[0]}").right
@@ -174,6 +177,7 @@ def test_values_of_an_own_coordinate_in_plain_text() -> None:
     assert not rocker().check(f"{said.replace('pi/2 - ', '')}\n{equation}").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("interval", ["∈ [0, pi/2]", "∈ (0; pi)", "∈ [0, 2 pi)"])
 def test_intervals_are_no_statements(interval: str) -> None:
     equation = "m l^2 psi'' + (b r^2 + c) psi' - k r^2 (pi/2 - psi) + m g l cos psi = -F l"
@@ -191,7 +195,7 @@ MAILS = (
 """Sentences of mails that declare a coordinate."""
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("said", MAILS)
 def test_an_own_coordinate_is_declared_in_a_mail(said: str) -> None:
     equation = "m l²/r² · u'' + (b + c/r²) u' + k u - (m g l/r) sin(u/r) = F l/r"
@@ -225,7 +229,7 @@ WRITTEN_OTHERWISE = (
 )
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("old", "new"), [("import numpy", "import numpy"), *WRITTEN_OTHERWISE])
 def test_a_state_with_short_names_of_its_own_is_read(old: str, new: str) -> None:
     assert old in PROGRAM

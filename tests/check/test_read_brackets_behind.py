@@ -42,6 +42,7 @@ def table() -> lg.Derivation:
 GLOSSED = "x1 = ψ, x2 = RATE, n = k/m\nx1' = x2\nx2' = -n x1 - (c/m) x2"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "rate", ["ψ̇ (dψ/dt)", "psi' (= dpsi/dt)", "ψ' (dψ/dt)", "dψ/dt (= ψ')", "psi_dot (dpsi/dt)", "ψ̇ (psi')"]
 )
@@ -68,6 +69,7 @@ phi'' = (M - 2 m r r' phi') / D
 r'' = r phi'² - (k/m) r"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("remark", ["determinant / m", "determinant/m", "denominator * 1/m"])
 def test_a_remark_behind_a_gap_may_hold_a_fraction(remark: str) -> None:
     written = FAR.replace("REMARK", remark)
@@ -90,6 +92,7 @@ NAMED = """[ J + m r²   0 ] [φ̈]   [ M - 2 m r r' φ' ]   [ u ]
 r̈ = v/m"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "written", [NAMED, "[J + m r², 0; 0, m] [φ''; r''] = [M - 2 m r r' φ'; m r φ'² - k r] = [u; v]"]
 )

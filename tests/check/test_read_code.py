@@ -170,6 +170,7 @@ def test_a_model_in_modelica_is_its_equations() -> None:
         assert not cart.check(MODEL.replace(old, new), hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("stated", "calls"),
     [

@@ -28,7 +28,7 @@ def right(written: str, name: str = "cart-pole") -> bool:
     return derivation(name).check(written, hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("wide", [True, False])
 @pytest.mark.parametrize(
     "form",
@@ -198,7 +198,7 @@ D = (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2
 OVER = "(J + m*l^2)*(F - b*x' + m*l*theta'^2*sin(theta)) - m^2*g*l^2*sin(theta)*cos(theta)"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("bar", ["-" * 20, "-" * len(OVER), "─" * 90])
 @pytest.mark.parametrize("under", [" " * 12 + "D", "     (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2"])
 def test_a_fraction_over_three_lines_need_not_be_as_wide_as_its_bar(bar: str, under: str) -> None:

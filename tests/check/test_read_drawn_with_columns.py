@@ -40,6 +40,7 @@ def masses() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", DRAWN)
 def test_a_column_by_its_letter_stands_between_drawn_matrices(form: str) -> None:
     written = f"q = (x, y)\n{DRAWN[form]}"

@@ -215,6 +215,7 @@ def _holds(answer: str) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", ["Inertia of the load, reduced to φ: ", "The load: ", "Load gives ", ""])
 def test_a_name_is_explained_behind_what_it_stands_in(said: str) -> None:
     """m u², u = R: what is mentioned is no part of what is stated, which is judged where it is used."""

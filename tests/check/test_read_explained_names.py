@@ -22,6 +22,7 @@ def is_right(answer: str, of: lg.Derivation) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "slip"),
     [
@@ -71,6 +72,7 @@ def test_explained_names_of_a_mass(answer: str, slip: tuple[str, str]) -> None:
     assert not is_right(answer.replace(*slip), mass())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "slip"),
     [
@@ -109,6 +111,7 @@ def test_explained_names_of_a_puck_on_a_rod(answer: str, slip: tuple[str, str]) 
     assert not is_right(answer.replace(*slip), rod())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "slip"),
     [
@@ -134,6 +137,7 @@ def test_explained_names_of_a_pendulum(answer: str, slip: tuple[str, str]) -> No
     assert not is_right(answer.replace(*slip), pendulum())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -232,6 +236,7 @@ def test_a_word_of_the_description_in_brackets_is_no_product() -> None:
     assert not crank.check(product.replace("k r^2", "k r")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -255,6 +260,7 @@ def test_a_name_that_words_say_to_be_short_for_a_formula(said: str, name: str) -
         assert not is_right(answer.replace("m l²", f"{slip} l²").replace("l² m", f"l² {slip}"), pendulum())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", ["φ = π also.", "φ = pi is unstable.", "Rest at φ = 0; φ = π as well.", "also φ = π."])
 def test_pi_is_no_momentum(said: str) -> None:
     """Not that of φ, whose name ends with i; p_φ is one."""

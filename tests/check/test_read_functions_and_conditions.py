@@ -57,6 +57,7 @@ def test_a_prime_is_a_rate_where_rates_have_primes() -> None:
     assert not turntable().check(around.replace("I' phi'", "I' r' phi'") + along, hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "condition",
     [
@@ -99,6 +100,7 @@ def test_a_name_may_be_stated_behind_words_and_numbers(mass: str, inertia: str) 
     assert not derivation("cart-pole").check(f"{mass}\n{inertia.replace('+', '-')}\n{CART}\n{POLE}", hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("of", ["", "np.", "math."])
 def test_degrees_turned_by_a_function_are_that_angle(of: str) -> None:
     slope = derivation("rolling-cylinder")

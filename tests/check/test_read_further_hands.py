@@ -178,6 +178,7 @@ def test_declarations_of_functions_behind_another_on_one_line(named: str) -> Non
     assert not right(sheet.replace("- m g", "+ m g"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

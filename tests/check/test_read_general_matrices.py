@@ -96,7 +96,7 @@ def wrong(answer: str) -> list[str]:
     return [answer.replace(*slip) for slip in slips if slip[0] in answer]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("form", PLAIN)
 def test_entries_rows_and_tables(form: str) -> None:
     assert driven().check(PLAIN[form]).right
@@ -107,7 +107,7 @@ def test_a_missing_entry_that_symmetry_gives_is_told() -> None:
     assert "M21 was read as M12: the matrix is symmetric." in map(str, driven().check(PLAIN["symmetric"]).notes)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("given", [IN_LINE, ALIGNED, WHOLE])
 @pytest.mark.parametrize("form", LATEX)
 def test_the_form_in_latex(form: str, given: str) -> None:
@@ -170,6 +170,7 @@ LONGER = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["Mq", "M_q", "Mm", "A"])
 @pytest.mark.parametrize("form", LONGER)
 def test_the_matrix_of_entries_may_have_a_longer_name(form: str, name: str) -> None:

@@ -57,6 +57,7 @@ COLUMNS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("written", COLUMNS)
 def test_rows_and_columns_are_lists(written: str) -> None:
     assert derivation("lecture-3a").check(written.replace("{F1}", "-F"), hint=0).right
@@ -207,6 +208,7 @@ def test_a_bold_command_without_braces_takes_one_letter() -> None:
     assert not carts.check(f"{said}\n{rows.replace('0&k', '0&-k')}").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("sign", "right"), [("+", True), ("-", False)])
 @pytest.mark.parametrize("gap", [r"& \quad \quad {} ", r"& \quad ", r"&\qquad{}", r"\quad", "&", ""])
 @pytest.mark.parametrize("start", ["R &=", r"\dot p - Q &="])
@@ -225,12 +227,14 @@ ONE_ROW = r"""\[ \mathbf M \ddot{\mathbf q} + \mathbf G = \mathbf A^T \boldsymbo
 \[ \boldsymbol\gamma + \mathbf A \ddot{\mathbf q} = 0 \]"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("old", "new"), [("", ""), ("^2 + ", "^2 - "), ("^2 + ", "^2 + x")])
 def test_a_row_times_a_column_beside_a_matrix_of_one_entry(old: str, new: str) -> None:
     verdict = derivation("rod-pendulum").check(ONE_ROW.replace(old, new))
     assert verdict.right is (not old), verdict.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [
@@ -262,6 +266,7 @@ def test_displays_that_each_state_something_stay_apart() -> None:
 IN_WORDS = "m l^2 \\ddot φ + b \\dot φ + m g l sinφ = M      (*)\n\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

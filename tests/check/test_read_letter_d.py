@@ -55,6 +55,7 @@ RIGHT = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("damping", "answer"), RIGHT)
 def test_a_damping_of_this_name_is_a_factor(damping: str, answer: str) -> None:
     assert judged(answer, damping).right
@@ -66,6 +67,7 @@ def once(answer: str) -> str:
     return answer[:last] + "1*" + answer[last + 1 :].lstrip("*")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("damping", "answer"), [(damping, once(answer)) for damping, answer in RIGHT])
 def test_one_damper_alone_stays_wrong(damping: str, answer: str) -> None:
     assert not judged(answer, damping).right

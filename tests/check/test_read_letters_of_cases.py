@@ -136,6 +136,7 @@ def test_the_rates_of_components_are_judged() -> None:
     assert not right(f"{CENTRE}\n{rates.format('+')}\n{balances}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("axis", ["{}S", "{}_S", "S_{}"])
 def test_rates_of_components_are_the_derivatives_of_the_point(axis: str) -> None:
     x, y = (axis.format(a) for a in "xy")

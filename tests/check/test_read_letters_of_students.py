@@ -81,7 +81,7 @@ def test_labels_in_front_of_equations_are_no_factors(first: str, second: str) ->
     assert not accepted(f"{first}{CART}\n{second}{BOB.replace('g ell', 'g ell^2')}")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("factor", ["k  ", "M_x  ", "2   ", "mk  ", "F_a   ", "m ell  ", "twice  "])
 def test_factors_far_in_front_of_an_equation_stay(factor: str) -> None:
     assert not accepted(f"{CART}\n{factor}m ell theta'' + m x'' cos(theta) + m g sin(theta) = 1")
@@ -128,6 +128,7 @@ def test_what_is_left_out_with_numbers_or_names_is_told() -> None:
     assert not accepted(f"V = 0\n{CART}\n{BOB}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("word", ["twice", "half", "minus", "double"])
 def test_words_that_change_a_value_are_not_left_out(word: str) -> None:
     assert accepted(f"the sum of masses mu = M + m\nmu{CART[5:]}\n{BOB}")
@@ -231,6 +232,7 @@ def test_an_arrow_of_two_lines_and_a_remark_begin_an_equation() -> None:
     assert accepted(f"{CART}\n{BOB}".replace("theta''", "diff(theta, 2)").replace("theta'^2", "diff(theta)^2"))
 
 
+@pytest.mark.slow
 def test_sums_of_numbers_and_energies_before_a_colon() -> None:
     V = "1/2 k x^2 - m g ell cos(theta)"
     assert accepted(f"- T: {T}\n- V: {V}\n- x: {CART}\n- theta: {BOB}")

@@ -103,6 +103,7 @@ def test_what_is_said_elsewhere_is_found(answer: str, old: str, new: str) -> Non
     assert not right(answer.replace(old, new))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("said", ["Step 7: 5 = 6", "7. (5) = (6):", "Equating (5 = 6)"])
 def test_numbers_that_are_equated_name_steps(said: str) -> None:
     assert right(f"{KINETIC}\n{said}\n{CART}\n{POLE}")

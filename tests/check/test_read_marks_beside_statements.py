@@ -36,6 +36,7 @@ def right(system: Derivation, answer: str) -> bool:
 # -- labels and remarks -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "labels", [("(II.1)", "(II.2)"), ("(A.1)", "(A.2)"), ("(2.3a)", "(2.3b)"), ("[IV.1]", "[IV.2]")]
 )
@@ -54,6 +55,7 @@ def test_such_labels_in_latex(label: str) -> None:
     assert not right(rod(), answer.replace("+ 2 m", "- 2 m"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gap", [r"\quad", r"\;", " ", r"\qquad"])
 @pytest.mark.parametrize(
     "words", [r"(\text{about the hinge})", r"[\text{bezüglich Lager}]", r"(\mbox{Steiner, of course})"]
@@ -78,6 +80,7 @@ REMARKS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("remark", REMARKS)
 @pytest.mark.parametrize("gap", [" ", "\n"])
 def test_a_sentence_about_a_name_behind_its_value(remark: str, gap: str) -> None:
@@ -154,6 +157,7 @@ $m l^2\ddot\varphi + m l\ddot x\cos\varphi + m g l\sin\varphi = 0$
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "place", ["in the horizontal position of the rod", "at the height of the hinge", r"for $\varphi = \pi/2$, $x = 0$"]
 )
@@ -190,6 +194,7 @@ def test_an_input_times_d_is_a_product() -> None:
     assert right(handle(), "m l^2 thetadd + c thetad + m g l sin(theta) = Fd")
 
 
+@pytest.mark.slow
 def test_the_rate_of_a_function_of_a_coordinate_is_no_slope() -> None:
     """I′ is İ where its value holds a rate, and ∂I/∂r where it holds none."""
     rows = "I φ̈ + 2 m r ṙ φ̇ = M\nm r̈ − m r φ̇² + k (r − a) = 0"
@@ -249,6 +254,7 @@ def strut() -> Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_value_at_a_position_that_words_say() -> None:
     """ρ is √(a² + b²) at θ = 90° alone."""
     said = r"$\rho = \sqrt{a^2 + b^2 + 2 a b\cos\theta}$, $V = \frac12 k\rho^2$" + "\n\n"

@@ -72,6 +72,7 @@ def test_a_force_that_is_used_is_a_definition_where_enough_equations_remain() ->
     assert verdict.right and len(verdict.findings) == 2
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("force", "right"), [("tau", True), ("-tau", False), ("2*tau", False)])
 def test_a_generalized_force_may_have_a_shortened_coordinate(force: str, right: bool) -> None:
     verdict = derivation("lecture-1").check(f"Xi_th = {force}\n{LEVER} = {force}")

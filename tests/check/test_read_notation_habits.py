@@ -47,6 +47,7 @@ def loaded() -> lg.Derivation:
 NUMBERS = ["40 000", "40\u2009000", "40'000", "40_000", "40,000", "40 000.0", "40\u00a0000"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_numbers_in_groups_of_three_are_one_number(number: str) -> None:
     assert accepted(f"2.5 x'' + 350 x' + {number} x = F", loaded())
@@ -79,6 +80,7 @@ def test_numbers_that_count_lines_are_no_groups() -> None:
     assert with_whole_numbers(TracedText(text), {}).text == text
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("between", [" ......... ", " . . . . ", " … ", " ---- ", "·····", " → ", " ==> ", " —— —— "])
 @pytest.mark.parametrize("labels", [("(a)", "(b)"), ("(1)", "(2)"), ("[1]", "[2]"), ("(*)", "(**)"), ("(k)", "(l)")])
 def test_what_leads_to_a_number_is_no_factor(between: str, labels: tuple[str, str]) -> None:
@@ -108,6 +110,7 @@ ml\ddot x\cos\phi + ml^2\ddot\phi &= -mgl\sin\phi
     assert not accepted(answer.replace("- kx", "+ kx"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("space", [r"\,", r"\;", "~", r"\ ", r"\quad", ""])
 @pytest.mark.parametrize("box", ["boxed", "Aboxed", "fbox"])
 def test_space_at_the_end_of_a_row_is_no_operator(space: str, box: str) -> None:
@@ -149,6 +152,7 @@ def test_words_say_that_columns_are_equal(said: str) -> None:
     assert not accepted(answer.replace("− m l φ'²", "+ m l φ'²"))
 
 
+@pytest.mark.slow
 def test_t_behind_a_comma_is_a_derivative() -> None:
     for mark in ("_{,%s}", "_,%s", ",%s", "_{, %s}"):
         answer = X.replace("''", mark % "tt").replace("'", mark % "t") + "\n" + PHI.replace("''", mark % "tt")
@@ -175,6 +179,7 @@ LISTS = "{{M + m, m*l*Cos[φ[t]]}, {m*l*Cos[φ[t]], m*l^2}}"
 COLUMN, FORCES = "{x''[t], φ''[t]}", "{m*l*φ'[t]^2*Sin[φ[t]] - k*x[t], -m*g*l*Sin[φ[t]]}"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "form",
     [
@@ -208,6 +213,7 @@ def test_rows_in_the_linear_format_end_at_their_sign(opened: str, closed: str) -
     assert not accepted(answer.replace("-kx", "+kx"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "begin, end",
     [
@@ -258,6 +264,7 @@ MASSES = """m_1 = M, m_2 = m
 m_2 l x'' cos φ + m_2 l² φ'' + m_2 g l sin φ = 0"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("total", ["Σ_{i=1}^{2}", "∑_(i=1)^2", "Σ_{i∈{1,2}}", "Σ_i", "sum_{i=1}^2", "Σ_{i=1,2}"])
 def test_sums_over_an_index_are_written_out(total: str) -> None:
     answer = MASSES.replace("Σ_{i=1}^{2}", total)
@@ -277,6 +284,7 @@ m_2 l\ddot x\cos\phi + m_2 l^2\ddot\phi + \sum_{i\in\{2\}} m_i\, g l\sin\phi &= 
 ENTRIES = "M_11 = M + m, M_12 = M_21 = m l cos φ, M_22 = m l²\nf_1 = m l φ'² sin φ − k x, f_2 = −m g l sin φ"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "form",
     [
@@ -306,6 +314,7 @@ def test_the_form_of_one_row_is_that_of_all(form: str) -> None:
 ROW_LIST = "[M + m, m l cos φ], [m l cos φ, m l²]"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "form",
     [
@@ -322,6 +331,7 @@ def test_a_matrix_by_its_rows_in_words(form: str) -> None:
     assert not accepted(answer.replace("m l²]", "m l]"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("at", ["m l φ''", "cos φ", "− m l", "φ'²", "k x"])
 def test_lines_that_are_cut_anywhere(at: str) -> None:
     answer = f"The equations of motion are\n{X.replace(f' {at}', chr(10) + at, 1)}\n\n{PHI}"

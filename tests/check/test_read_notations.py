@@ -142,6 +142,7 @@ def test_blanks_in_brackets_remain_products_where_the_shape_wants_them() -> None
     assert [str(line.rhs) for line in answer.lines] == ["g*m", "b*Derivative(x(t), t)"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

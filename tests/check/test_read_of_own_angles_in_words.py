@@ -38,6 +38,7 @@ m s'' - k (r psi/n - s) + m g = - b s'
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -65,6 +66,7 @@ def test_a_coordinate_is_no_unit_of_its_own_equation() -> None:
     assert not winch().check(given + numbers.replace("2500 s ", "2600 s ")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("label", ["(i) + (ii):  ", "(ii) + (i): ", "(2) - (1): "])
 def test_a_sum_of_numbers_in_front_is_a_label(label: str) -> None:
     rows = "(i)   (J + n^2 Jm) phi'' + k r (r phi - s) = n tau\n(ii)  m s'' - k (r phi - s) + m g = -b s'\n"
@@ -92,6 +94,7 @@ def bar() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sign", "is_right"), [("-", True), ("+", False)])
 def test_an_own_length_is_differentiated_by_an_own_angle(sign: str, is_right: bool) -> None:
     said = f"""My coordinate is alpha = pi/2 - theta.

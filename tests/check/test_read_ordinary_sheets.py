@@ -66,6 +66,7 @@ m w·δr = m [a^2 α'' + a l sin(α - β) β'' - a l cos(α - β) β'^2] δα + 
 """
 
 
+@pytest.mark.slow
 def test_a_dot_product_of_rows_is_a_number() -> None:
     work = WORK.format(place=PLACE)
     assert right(f"{work}\n{PLANK}\n{LAMP}")
@@ -88,6 +89,7 @@ def test_a_cross_product_of_rows_in_the_plane_is_its_component_out_of_it() -> No
     assert not right(f"{moment.replace('= m g a', '= -m g a')}\n{PLANK}\n{LAMP}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "inertia",
     [
@@ -120,7 +122,7 @@ J α'' = -k α + τ + a cos α Fy - a sin α Fx
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("first", "second"), [("Fx", "Fy"), ("Sa", "Sb"), ("FH", "FV"), ("Hx", "Hy")])
 def test_a_force_of_ones_own_stands_behind_the_argument_of_a_function(first: str, second: str) -> None:
     rows = NEWTON.replace("Fx", first).replace("Fy", second)
@@ -207,6 +209,7 @@ def test_a_sine_written_onto_its_angle_is_no_unit() -> None:
     assert not any("0.00" in x for x in told(f"x = 2l cosα, so nothing\n\n{PLANK}\n{LAMP}"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -234,6 +237,7 @@ def test_an_energy_behind_its_name_has_letters_that_stand_behind_a_comma() -> No
     assert right(f"kinetic energy: {swings} + J α'²/2\n{PLANK}\n{LAMP}")
 
 
+@pytest.mark.slow
 def test_a_component_beside_another_is_no_product_of_names_of_the_system() -> None:
     sys = System("sledge on springs that carries a hanging mass")
     z, phi = sys.coordinate("z"), sys.coordinate("phi")
@@ -276,6 +280,7 @@ def windlass() -> Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "words", ["{}, the rope has no stretch", "The rope runs without stretch: {}", "{}, unstretched"]
 )

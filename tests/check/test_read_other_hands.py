@@ -76,6 +76,7 @@ def test_a_shortened_letter_that_the_answer_defines_or_that_is_a_product_is_none
 PENDULUM = "m L^2 theta'' + b theta' + m g L sin(theta)"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

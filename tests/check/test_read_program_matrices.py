@@ -181,6 +181,7 @@ def test_a_list_of_states_says_what_they_are() -> None:
     assert "as the words say" not in wrong.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("unit", [r"\mathrm{Nms}", r"\,\mathrm{kgm^2/s}", r"\,\text{Nms/rad}"])
 def test_units_without_a_sign_between_them(unit: str) -> None:
     row = r"m L^2\ddot\theta+b\dot\theta+mgL\sin\theta=0"
@@ -263,7 +264,7 @@ IN_PYTHON = """def rhs(t, y):
 """
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "program",
     [

@@ -44,6 +44,7 @@ m l² φ̈ + m l cosφ ẍ + m l sinφ cosφ (φ̇)² + m g l sinφ = m l sinφ 
     )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("begins", [r"\displaystyle\qquad{}", r"\displaystyle{}", r"\displaystyle\quad", r"\qquad"])
 @pytest.mark.parametrize("kind", ["cases", "aligned", "array"])
 def test_a_row_that_begins_with_an_operator_goes_on_in_any_style(begins: str, kind: str) -> None:
@@ -58,6 +59,7 @@ def test_a_row_that_begins_with_an_operator_goes_on_in_any_style(begins: str, ki
     assert_read(cart(), written, ("- m l", "+ m l"), ("k x = 0", "2 k x = 0"), ("+ m g l", "- m g l"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "remark",
     [
@@ -78,6 +80,7 @@ def test_a_bracket_of_words_may_end_in_mathematics(remark: str) -> None:
     assert_read(cart(), written, (r"A = m\,l^2", r"A = 2 m\,l^2"), (r"B = m\,l ", r"B = m\,l^2 "), ("- B", "+ B"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -117,6 +120,7 @@ def test_a_dot_before_a_new_sentence_is_a_full_stop() -> None:
     assert_read(mass(), whole, ("- b x.", "+ b x."))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("value", ["(= dphi/dt)", "(= d phi/dt)", "(= phi')", "(= phi' + 0)"])
 def test_a_value_in_brackets_behind_what_a_letter_is(value: str) -> None:
     written = f"""letters:  w1 rate of the rod {value},  v speed along it (= dr/dt),
@@ -187,6 +191,7 @@ def test_a_sum_of_something_is_no_product_of_letters() -> None:
     assert_read(rod(), written, ("- k (s", "+ k (s"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("bound", [">0", r"\neq 0", r"\,>\,0", r"\ge 0", r"\not= 0"])
 def test_a_definition_in_latex_may_say_that_it_is_not_zero(bound: str) -> None:
     written = rf"""Cramer with $\Delta = (M + m\sin^2\phi)\,l {bound}$ yields
@@ -197,6 +202,7 @@ def test_a_definition_in_latex_may_say_that_it_is_not_zero(bound: str) -> None:
     assert_read(cart(), written, (r"(M + m\sin", r"(M - m\sin"), ("- k l x", "+ k l x"), ("- (M + m)", "+ (M + m)"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gap", ["&&", r"&\quad", r"\qquad"])
 def test_a_word_behind_a_gap_at_the_end_of_a_row_is_no_factor(gap: str) -> None:
     written = rf"""\begin{{align*}}

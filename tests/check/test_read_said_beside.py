@@ -122,6 +122,7 @@ def test_twice_differentiated_multiplies_nothing() -> None:
     assert not right(f"{rows}\n{said.replace('- l', '+ l')}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["y", "z", "q"])
 def test_rates_in_letters_of_a_column_that_the_answer_names(name: str) -> None:
     matrices = "A = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2],  {0} = [x; theta]\n"
@@ -140,6 +141,7 @@ def test_a_delta_that_the_answer_defines_is_no_variation() -> None:
 SMALL = "(M + m) x'' + m l theta'' + b x' = F\n(J + m l^2) theta'' + m l x'' - m g l theta = 0"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("beside", [f"For small angles:\n{SMALL}", "theta = 0", "Equilibria: sin theta = 0 or x = 0"])
 def test_single_positions_and_small_motions_beside_the_equations_are_not_judged(beside: str) -> None:
     verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{beside}")
@@ -242,6 +244,7 @@ def test_a_bracket_that_begins_with_a_product_is_no_remark_though_it_spells_a_wo
     assert not right(rows.replace("(by'", "(2 by'"), "planar-quadrotor")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "letters",
     [

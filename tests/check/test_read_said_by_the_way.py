@@ -48,6 +48,7 @@ SHORT = """J th'' + m a^2 th'' + d th' + kappa (th - th0) + m g a sin(th) = M
 th = theta, th0 = theta0 = 30 deg"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("value", ["30 deg", "pi/6", "30°", "0.5236 rad", "0.5236"])
 def test_a_name_may_be_said_to_be_a_parameter_with_its_value(value: str) -> None:
     text = SHORT.replace("30 deg", value)
@@ -92,6 +93,7 @@ M·ÿ + c·ẏ + k·y = R
 J·φ̈ + d·φ̇ = τ − R·l·cos φ"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("own", ["φ", "θ"])
 @pytest.mark.parametrize("word", ["in", "auf", "on", "for"])
 def test_a_force_behind_the_name_of_an_element_is_of_this_element_alone(own: str, word: str) -> None:
@@ -101,7 +103,7 @@ def test_a_force_behind_the_name_of_an_element_is_of_this_element_alone(own: str
     assert verdict.right and verdict.to_text().count("a part of it") == 5
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("now", "wrong", "told"),
     [
@@ -139,7 +141,7 @@ I y'' + c y' + k y = R
 A θ'' + d θ' + S cos θ = τ""".replace(" + 0 M", " + J - J").replace(" + 0", " + M - M")
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "said",
     [
@@ -193,6 +195,7 @@ m x'' = F - b x' - S cos beta
 S sin beta x = h S cos beta"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

@@ -245,7 +245,7 @@ def test_names_told_by_enumeration_are_rates_of_masses_with_the_same_numbers(sai
         assert "what is '" in str(error)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("tag", ["(I)", "[II]", "(q)"])
 def test_a_letter_in_brackets_far_behind_an_equation_is_its_label(tag: str) -> None:
     twins(f"{POLE}        {tag}\n{CART}\nI add {tag} to the other one.", "- m g", "+ m g")
@@ -370,6 +370,7 @@ def test_a_title_may_hold_definitions_and_a_sentence_an_angle_in_degrees() -> No
     assert said.right and "α = ⅙ π" in said.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

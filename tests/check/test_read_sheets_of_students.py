@@ -180,6 +180,7 @@ def test_a_letter_e_of_the_answer_is_not_the_base_of_powers() -> None:
     assert not d.check(sheet.replace("e^2", "e^3"), hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("legend", "first", "second"),
     [

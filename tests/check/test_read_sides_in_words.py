@@ -74,6 +74,7 @@ def test_degrees_of_freedom_with_a_number_are_words(words: str) -> None:
     assert not right(f"{CART}\n{words}{POLE.replace('m g l', '2 m g l')}")
 
 
+@pytest.mark.slow
 def test_an_equation_that_ends_in_a_word_states_no_force() -> None:
     general = "For one degree of freedom, the moments about P give J_P theta'' = moment, with"
     answer = f"{general} J_P = m l^2/3:\nJ_P theta'' + m g l/2 cos theta = 0\nx = l/2 cos theta, y = l/2 sin theta"

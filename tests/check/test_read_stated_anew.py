@@ -40,6 +40,7 @@ CORRECTIONS = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", CORRECTIONS)
 def test_a_correction_takes_back_the_line_with_the_same_name(form: str) -> None:
     bulleted = form.startswith("* ")

@@ -30,6 +30,7 @@ def judged(text: str) -> list[str]:
     return [f.line.kind for f in verdict.findings]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("dot", ["ṙ φ̇", "r' phi'", "rd phid", "rdot phidot"])
 def test_energies_with_what_they_are_differentiated_by_as_an_index(dot: str) -> None:
     r, phi = dot.split()
@@ -81,6 +82,7 @@ def test_words_in_brackets_tell_quantities_of_one_letter_apart(text: str) -> Non
     assert not accepted(text.replace("k (r - a)", "2 k (r - a)"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "matrix",
     [
@@ -104,6 +106,7 @@ def test_marks_in_symmetric_matrices(matrix: str) -> None:
     assert not accepted(text.replace("0", "m"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -140,6 +143,7 @@ TABLE = """| | {0} | {1} |
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("head", ["q = r|q = phi", "q_k = r|q_k = phi", "for r|for phi", "r|phi"])
 def test_the_head_of_a_table_says_of_which_coordinate_its_columns_are(head: str) -> None:
     table = TABLE.format(*head.split("|"))
@@ -147,6 +151,7 @@ def test_the_head_of_a_table_says_of_which_coordinate_its_columns_are(head: str)
     assert not accepted(f"{table.replace('k (r - a)', 'k (r + a)')}\n{ROWS}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "list_of", ["m + J/R² = 13.2, J/R² = 0.3/0.25 (in kg)", "J/R² = 1.2\n250 R = 125", "k d = 60, 250 R = 125"]
 )
@@ -169,6 +174,7 @@ h = [ m r φ'² - k (r - a) ; M_0 - 2 m r r' φ' ] =: [ h1 ; h2 ]
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "rows", ["[ r'' ; φ'' ] = M⁻¹ h", "[ r'' ; φ'' ] = M⁻¹ [ h1 ; h2 ]", "r'' = h1/m\nφ'' = h2/(J + m r²)"]
 )
@@ -201,6 +207,7 @@ p' = M
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["{}", "{}\nm r'' - m r φ'² + k (r - a) = 0\n(J + m r²) φ'' + 2 m r r' φ' = M"])
 def test_a_routhian_holds_the_momentum(form: str) -> None:
     text = form.format(ROUTH)

@@ -97,6 +97,7 @@ def test_a_macro_that_grows_is_refused_and_errors_keep_their_place() -> None:
     assert (caught.value.place.line, caught.value.place.column) == (2, 10)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("before", "behind"),
     [

@@ -50,7 +50,7 @@ def drum() -> lg.Derivation:
 ROWS = "J phi'' + k R (R phi - y) = M\nm y'' - k (R phi - y) + m g = 0"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "said",
     [

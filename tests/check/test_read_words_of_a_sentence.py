@@ -116,6 +116,7 @@ def test_words_of_a_direction_behind_a_formula_are_no_factors(way: str) -> None:
     assert not wrong.right and way not in wrong.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("way", [r"\text{ down}", r"\quad\text{to the right}", r"\;\text{upwards},"])
 def test_words_of_a_direction_in_latex(way: str) -> None:
     rows = r"\[J \ddot\alpha + \frac r2 P = 0\]\[J \ddot\beta - \frac r2 P = 0\]\[P = m \ddot y + k y - m g\]"

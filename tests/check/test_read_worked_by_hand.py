@@ -120,6 +120,7 @@ deflection = "z"
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("sign", ["Σ", "∑", "∑ "])
 def test_the_sign_of_a_sum_may_be_part_of_a_name(sign: str) -> None:
     """Σm := m0 + m1 says what Σm is; ∑F = m x'' only says what is added up."""

@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import pytest
 import sympy as sp
 
 import lagrangian as lg
@@ -73,6 +74,7 @@ def test_no_mistake_is_told_that_a_second_one_takes_back_in_a_right_term() -> No
     assert said[1] == "What spring 'cord' adds to the equation of phi counts twice.", said
 
 
+@pytest.mark.slow
 def test_no_sign_is_wrong_in_one_of_two_bodies_where_a_term_of_both_is_missing() -> None:
     answer = "T = J/2 psi'^2 + m (R^2 + l^2 sin(theta)^2) psi'^2 + m l^2 theta'^2\nV = -2 m g l cos(theta)"
     verdict = judged(centrifuge(), answer)
@@ -162,6 +164,7 @@ RATE = "l' = {} θ'\nLet q = {}, q' its derivative with respect to θ:\n"
 ROW = "(J + m q^2) θ'' + m q q' θ'^2 + m g a d sin θ/l = {} b θ' - c q^2 θ'"
 
 
+@pytest.mark.slow
 def test_the_wrong_rate_of_a_length_is_told_where_it_is_written() -> None:
     """The energy, the damper and the equation follow from it."""
     right = RATE.format(*["a d sin θ/l"] * 2) + ROW.format("-")
@@ -174,6 +177,7 @@ def test_the_wrong_rate_of_a_length_is_told_where_it_is_written() -> None:
     assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [1]
 
 
+@pytest.mark.slow
 def test_another_mistake_beside_a_wrong_rate_is_told_as_well() -> None:
     """The exchange of sine and cosine in the guide's damper follows from the rate and is told once."""
     answer = RATE.format(*["a d cos θ/l"] * 2) + "T = J/2 θ'^2 + m/2 q^2 θ'^2\nΞ = b θ' - c q^2 θ'"
@@ -184,6 +188,7 @@ def test_another_mistake_beside_a_wrong_rate_is_told_as_well() -> None:
     ], said
 
 
+@pytest.mark.slow
 def test_a_lost_divisor_is_told_in_the_names_of_the_answer() -> None:
     named = "u = a d sin θ/l\n(J + m u^2) θ'' + m u (a d cos θ - u^2){} θ'^2 + m g u = -b θ' - c u^2 θ'"
     assert check_answer(gate(), named.format("/l")).right

@@ -19,6 +19,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("answer", "right"), ANSWERS.items())
 def test_a_sum_of_parts_is_compared_with_the_whole(answer: str, right: bool) -> None:
     verdict = rod().check(answer)

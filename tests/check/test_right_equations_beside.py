@@ -19,6 +19,7 @@ def said(verdict: lg.Verdict) -> str:
     return " ".join(verdict.to_text().split("Line by line")[0].split())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("above", "first"),
     [

@@ -184,6 +184,7 @@ on = "theta"
 OPENS = "5.2 theta'' + 123.75 (1 - 1.1/l) sin(theta) + 4.7266 sin(theta)^2/l^2 theta' = M"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "length",
     ["l^2 = 0.365 - 0.275 cos(theta)", "l = sqrt(0.365 - 0.275 cos(theta))", "l² = a² + b² - 2 a b cos(theta)"],

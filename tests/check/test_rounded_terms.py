@@ -94,6 +94,7 @@ def test_a_rounded_number_is_right_also_with_an_identity(digits: int) -> None:
     assert ladder().check(HEAD + answer(digits)).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("digits", [3, 4, 5])
 def test_rounded_numbers_are_right_beside_a_wrong_term(digits: int) -> None:
     """Only the spring is wrong, and it is told with numbers."""

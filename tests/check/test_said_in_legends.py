@@ -281,6 +281,7 @@ def test_a_dissipation_function_may_hold_forces_that_resist() -> None:
     assert not accepted(DRAGGED, written.replace("½ c x'² + ", ""))
 
 
+@pytest.mark.slow
 def test_what_a_length_is_in_numbers_does_not_stand_in_lines_of_letters() -> None:
     letters = "s = sqrt(d² + h² + 2 d h sin θ)\nJ θ'' + k (s - n) d h cos θ/s = P\n"
     numbers = "in numbers: s = sqrt(0.25 + 0.24 sin θ)\n2 θ'' + 72 (1 - 0.8/s) cos θ = P"

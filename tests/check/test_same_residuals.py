@@ -56,6 +56,7 @@ def wrong_lines(verdict: lg.CheckedAnswer) -> list[int]:
     return [f.line.number for f in verdict.findings if not f.status.right and not f.follows]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("wrong", ["r beta' + R alpha'", "r beta' - R", "r beta'"])
 def test_a_force_follows_from_a_wrong_rate(wrong: str) -> None:
     verdict = system(ROLLS).check(ANSWER.format("r beta' - R alpha'", "+"))
@@ -69,6 +70,7 @@ def test_a_force_with_a_mistake_of_its_own_is_told() -> None:
     assert 3 in wrong_lines(system(ROLLS).check(ANSWER.format("r beta' + R alpha'", "+ 2")))
 
 
+@pytest.mark.slow
 def test_a_rate_that_repeats_another_follows() -> None:
     assert not wrong_lines(system(WINCH).check(DRUM.format("1", "1", "cos")))
     verdict = system(WINCH).check(DRUM.format("2", "1", "cos"))
@@ -78,6 +80,7 @@ def test_a_rate_that_repeats_another_follows() -> None:
     )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("sign", "function"), [("+", "cos"), ("- 2", "cos"), ("-", "sin")])
 def test_a_term_is_told_with_its_whole_angle(sign: str, function: str) -> None:
     angle = "(pi/4 + theta/2)"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import pytest
 import sympy as sp
 from sympy import cos, sin
 
@@ -58,6 +59,7 @@ def test_right_answer() -> None:
     assert checked(KINETIC + POTENTIAL + OF_ANGLE + OF_CARRIAGE).right
 
 
+@pytest.mark.slow
 def test_sign_of_a_product_of_functions() -> None:
     """The sign of k a² sin θ cos θ: exchanging both functions changes nothing."""
     found = checked(OF_ANGLE.replace("+ k a^2", "- k a^2") + OF_CARRIAGE)

@@ -63,6 +63,7 @@ def test_what_numbers_cannot_say_is_left_to_sympy() -> None:
         assert not differs_somewhere(truth(), expr)
 
 
+@pytest.mark.slow
 def test_sines_that_cancel_are_those_that_sympy_finds() -> None:
     ingredients = Ingredients(truth().derivation)
     beta, r = sp.symbols("beta r", real=True)

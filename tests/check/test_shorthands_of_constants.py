@@ -24,6 +24,7 @@ def wrong_lines(system: lg.Derivation, answer: str) -> dict[int, bool]:
     return {f.line.number: f.follows for f in system.check(answer).findings if not f.status.right}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "told"),
     [

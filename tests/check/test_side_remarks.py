@@ -119,7 +119,7 @@ def test_a_special_case_in_words_must_be_one(remark: str) -> None:
     assert not right(f"{CART}\n{WRONG_POLE}\n{remark}")
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "remark",
     [
@@ -186,6 +186,7 @@ def test_a_product_without_a_sign_is_no_condition() -> None:
     assert not derived.check("Disc about its axle:   phi'' = k phi\n\nJ phi'' = -k phi", hint=0).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "remark",
     [

@@ -20,6 +20,7 @@ def report(answer: str) -> str:
     return " ".join(verdict.to_text().split())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("cart", "said"),
     [

@@ -23,6 +23,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("answer", "right"), ANSWERS.items())
 def test_an_index_may_be_a_sign(answer: str, right: bool) -> None:
     verdict = rod().check(answer)

@@ -56,6 +56,7 @@ m s'' - m s phi'^2 + k s + m g sin(phi) = 0
 phi'' = """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("solved", "told"),
     [
@@ -92,6 +93,7 @@ def test_a_wrong_sign_in_a_numerator_is_quoted_as_it_was_written() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_a_slip_in_a_bracket_that_was_put_in_is_told_by_its_term() -> None:
     """Oracle: by hand, φ̈ from the second equation in the first one; its inertia has two masses."""
     s = System("cart with two bobs")
@@ -120,6 +122,7 @@ BELOW = """(m l^2 + M l^2 sin(phi)^2) phi'' + M l^2 sin(phi) cos(phi) phi'^2 + c
 phi'' = 1/({below}) (tau - c phi' - M l^2 sin(phi) cos(phi) phi'^2)"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("below", "told"),
     [
@@ -162,6 +165,7 @@ I phi'' + m n (n+1) l d sin((n+1) phi) phi'^2 + (M + m) g l sin(phi) + m g n d s
 phi'' = (tau - c phi' - k phi {sign} m n (n+1) l d sin((n+1) phi) phi'^2 - (M+m) g l sin(phi) - m g n d sin(n phi))/I"""
 
 
+@pytest.mark.slow
 def test_a_sign_in_a_numerator_is_told_where_shorthands_are_sums() -> None:
     assert planet().check(PLANET.format(sign="-")).right
     [mistake] = planet().check(PLANET.format(sign="+")).mistakes
@@ -174,6 +178,7 @@ V = -(M + m) g l cos(phi) - m g d cos(n phi) + 1/2 k phi^2
 Xi = tau - c phi'"""
 
 
+@pytest.mark.slow
 def test_a_factor_of_an_own_derivative_is_told_where_shorthands_are_sums() -> None:
     right = planet().check(SLOPE.format(factor="(n+1)"))
     assert not any(f.status.value == "wrong" for f in right.findings)

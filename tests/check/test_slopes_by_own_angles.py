@@ -41,7 +41,7 @@ def test_a_slope_by_an_own_angle_is_one_where_the_system_has_a_d() -> None:
     assert verdict.right, verdict.to_text()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("old", "new"),
     [

@@ -141,6 +141,7 @@ WRONG = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", ALL)
 def test_slopes_are_read_in_every_notation(form: str) -> None:
     answer = ALL[form]
@@ -152,6 +153,7 @@ def test_slopes_are_read_in_every_notation(form: str) -> None:
         assert wrong != answer and not right(wrong), wrong
 
 
+@pytest.mark.slow
 def test_factors_of_slopes_in_an_equation_are_judged() -> None:
     whole = quotients("ds/dφ", "d²s/dφ²").splitlines()[-1]
     assert right(whole) and right(LENGTH + whole)
@@ -170,6 +172,7 @@ NUMBERS = """{}
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "above", ["", "h d = 0.6, so s² = 1.69 − 1.2 cos φ", "s = √(1.69 − 1.2 cos φ)", "h² + d² = 1.69"]
 )
@@ -187,6 +190,7 @@ I φ̈ = M − S h d sin φ/s
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("moment", ["r × S u/s", "r × (S/s) u", "S/s · r × u", "(r × S·u)/s", "M_z = r × S u/s"])
 def test_a_cross_product_goes_on_behind_a_factor(moment: str) -> None:
     answer = CROSS.format(moment)

@@ -80,7 +80,7 @@ IN_LATEX = [
 ]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("stated", "slope"), [*IN_TEXT, *IN_LATEX])
 def test_a_defined_quantity_is_called_and_differentiated_by_its_coordinate(stated: str, slope: str) -> None:
     written = (LATEX if "\\" in slope else PLAIN).format(stated=stated, slope=slope)
@@ -123,6 +123,7 @@ T = 1/2 (I + m w^2) phi'^2 with w = {slope}
 """
 
 
+@pytest.mark.slow
 def test_a_position_that_a_right_line_shows_is_not_blamed_for_a_rate() -> None:
     """V has p as it is: only the rate has the ½."""
     slope = "r e cos(phi)/(2 p)"
@@ -141,6 +142,7 @@ T = 1/2 I phi'^2 + 1/2 m p'^2
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("square", "said"),
     [
@@ -155,6 +157,7 @@ def test_the_term_that_is_wrong_in_a_relation_is_named(square: str, said: str) -
     assert [str(m.what) for m in verdict.mistakes] == [f"In line 1, {said}."]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("square", ["r^2 + e^2 + 3 r e sin(phi)", "r^2 - e^2 - 2 r e sin(phi)", "r^2 + e^2"])
 def test_nothing_is_named_in_a_relation_that_no_one_term_mends(square: str) -> None:
     verdict = hatch().check(RELATION.format(square=square, rate="-2 r e cos(phi) phi'", moment="-m g r"))

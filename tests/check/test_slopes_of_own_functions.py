@@ -62,6 +62,7 @@ DECLARED = r"""\[ I(\theta)=mL^2\sin^2\theta,\qquad I'=\frac{dI}{d\theta}=2mL^2\
 \[ I\ddot\phi+I'\dot\theta\dot\phi=0 \]"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "declared", [r"I'=\frac{dI}{d\theta}=", r"I'(\theta)=dI/d\theta=", r"I' = \frac{\mathrm{d}I}{\mathrm{d}\theta} ="]
 )
@@ -117,7 +118,7 @@ mu(x) x'' + 1/2 SLOPE x'^2 + k x = F - b x'
 """
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "slope", [r"\mu'(x)", r"\mu'", r"\frac{d\mu}{dx}", r"\frac{\mathrm{d}\mu(x)}{\mathrm{d}x}", "mu'(x)", "dmu/dx"]
 )

@@ -21,6 +21,7 @@ from lagrangian.check.verdict import Status
 ROD = "(J + m r^2) phi'' + 2 m r r' phi' = M\nm r'' - m r phi'^2 + k (r - a) = 0\n\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("below", "right"),
     [
@@ -43,6 +44,7 @@ def test_what_is_said_of_a_case_below_right_equations_is_judged_there(below: str
     assert rod().check(ROD + below).right is right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("below", "right"),
     [

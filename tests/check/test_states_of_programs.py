@@ -108,6 +108,7 @@ end
     assert not right(written.replace("[z(3)\n      z(4)", "[z(4)\n      z(3)"))
 
 
+@pytest.mark.slow
 def test_functions_of_matlab_may_have_no_body() -> None:
     written = """A = @(z) [M + m, m*l*cos(z(2)); m*l*cos(z(2)), J + m*l^2];
 h = @(z) [F - b*z(3) + m*l*sin(z(2))*z(4)^2; m*g*l*sin(z(2))];
@@ -189,6 +190,7 @@ xdd = sol(1); ydd = sol(2); lambda = sol(3);
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "program", "changes"),
     [

@@ -48,6 +48,7 @@ def test_the_solved_rows_are_right() -> None:
     assert cart().check(SOLVED.format(first="(m + n) Q", sign="-")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("first", "sign", "said"),
     [("(m + n) Q", "+", "has the wrong sign"), ("2 (m + n) Q", "-", "should be"), ("(m + n) Q", "- 2", "should be")],

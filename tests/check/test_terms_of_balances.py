@@ -94,6 +94,7 @@ ROD = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("derive", "lines"), [(pendulum, CART), (ring, TWO), (crank, ROD)], ids=["cart", "ring", "rod"]
 )
@@ -102,6 +103,7 @@ def test_right_balances_are_right(derive: object, lines: tuple[str, ...]) -> Non
     assert derive().check("\n".join(lines)).right
 
 
+@pytest.mark.slow
 def test_a_centripetal_acceleration_is_missing_in_its_own_balance() -> None:
     told = said(pendulum(), changed(CART, 3, "m l phi'' sin(phi) = Y - m g"))
     assert len(told) == 1 and "line 3" in told[0] and "is missing" in told[0] and "phi'^2" in told[0], told
@@ -202,6 +204,7 @@ def statuses(derivation: lg.Derivation, answer: str) -> dict[int, tuple[bool, bo
     return {f.line.number: (f.status.right, bool(f.clash)) for f in verdict.findings if f.line.number > 1}
 
 
+@pytest.mark.slow
 def test_the_other_leg_of_a_slanting_rope_is_blamed_and_not_the_right_balance() -> None:
     assert collar().check("\n".join((*HANGING, DRAWN)), hint=0).right
     lines = changed(HANGING, 2, "m y'' = m g - k y - S h/l")
@@ -212,6 +215,7 @@ def test_the_other_leg_of_a_slanting_rope_is_blamed_and_not_the_right_balance() 
         assert "line 2" in told and "-S*h/" in told and "should be -S*y/" in told, told
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", ["M z'' = S - M g", "M z'' = S - M g - 3 k l"])
 def test_of_two_wrong_balances_none_is_blamed_alone(other: str) -> None:
     lines = changed(HANGING, 2, "m y'' = m g - k y - S h/l").replace(HANGING[2], other)
@@ -280,6 +284,7 @@ def boom() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_the_arm_of_a_slanting_spring() -> None:
     lines = "s = sqrt(L^2 + d^2 + 2 L d sin(theta))\nJ theta'' = -k (s - s0) L d cos(theta)/s - S L cos(theta)"
     lines += "\nM (L theta'' cos(theta) - L theta'^2 sin(theta)) = S - M g"
@@ -305,6 +310,7 @@ def roller() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_balance_and_the_force_solved_from_it_in_one_line() -> None:
     """The sign of H is wrong; half the mass in the result is not half the kinetic energy."""
     first = "J phi'' = tau - k r (r phi - x)\n"

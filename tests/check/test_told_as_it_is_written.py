@@ -47,6 +47,7 @@ def test_the_right_answer_is_right() -> None:
     assert check_answer(hatch(), f"{T}V = m g e sin(phi) + 1/2 k (z - n)^2\n{D}").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("energy", ["1/2 k z^2 - 1/2 k n^2", "1/2 k (z^2 + n^2)", "k/2 z^2 + k n^2/2"])
 def test_a_rest_length_that_is_squared_alone_is_not_missing(energy: str) -> None:
     """What is missing is the double product."""
@@ -59,6 +60,7 @@ def test_a_rest_length_that_is_nowhere_is_missing() -> None:
     assert told(f"{T}V = m g e sin(phi) + 1/2 k z^2\n{D}") == ["The rest length n of spring 'gas spring' is missing."]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("weight", ["V1 = m g e sin(phi)\n", "Vg = m g e sin(phi)\n"])
 @pytest.mark.parametrize("spring", ["V2 = 1/2 k (z - n)^2\n", "Vf = k (z - n)^2/2\n"])
 def test_a_sign_that_is_wrong_in_the_lagrangian_alone_is_told_of_it(weight: str, spring: str) -> None:
@@ -90,6 +92,7 @@ def test_an_equation_with_a_rate_that_is_said_rightly_is_right() -> None:
     assert check_answer(hatch(), f"z' = p q sin(phi) phi'/z\n{LEFT} + (k (z - n) + b z') p q sin(phi)/z = 0").right
 
 
+@pytest.mark.slow
 def test_derivatives_of_energies_in_a_wrong_length_follow() -> None:
     answer = (
         "z = sqrt(p^2 + q^2 - p q cos(phi))\nV = m g e sin(phi) + 1/2 k (z - n)^2\n"
@@ -101,6 +104,7 @@ def test_derivatives_of_energies_in_a_wrong_length_follow() -> None:
     assert [f.line.number for f in wrong.open_findings] == [1, 3]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gloss", ["      (dz/dphi)", "\t(dz/dphi)", "    (= dz/dphi)"])
 def test_a_derivative_in_a_column_of_its_own_says_what_a_name_is(gloss: str) -> None:
     answer = f"w = p q sin(phi)/z{gloss}\n{LEFT} + k (z - n) w + b w^2 phi' = 0"
@@ -112,6 +116,7 @@ def test_a_derivative_in_brackets_that_is_multiplied_stays() -> None:
     assert check_answer(hatch(), f"Q = -(k (z - n) + b z') (dz/dphi)\n{LEFT} = Q").right
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sine", ["sin(beta) = q sin(phi)/z", "sin beta = q sin(phi)/z"])
 def test_the_sine_of_an_angle_is_told_as_it_is_written(sine: str) -> None:
     answer = f"S = k (z - n) + b p q sin(phi)/z phi'\n{sine}\n{LEFT} - S p sin(beta) = 0"
@@ -121,6 +126,7 @@ def test_the_sine_of_an_angle_is_told_as_it_is_written(sine: str) -> None:
     assert not any(x in shown for x in ("p β", "β²"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("arm", "wrong"),
     [

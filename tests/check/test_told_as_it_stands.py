@@ -92,6 +92,7 @@ def test_a_sine_for_a_cosine_in_a_sum_is_told_with_the_sum(door: lg.Derivation) 
     assert "l*sin(b) stands" not in words, words
 
 
+@pytest.mark.slow
 def test_a_divisor_that_stands_once_for_twice_is_missing_and_no_factor_too_much() -> None:
     s = lg.System("cart")
     x = s.coordinates("x")

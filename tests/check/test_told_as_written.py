@@ -108,7 +108,7 @@ def test_sines_are_exchanged_in_the_weights_alone() -> None:
     assert said(column(), f"{T}\n{wrong}")[0] == "Sine and cosine are exchanged in the weights."
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("omega", "told"),
     [
@@ -145,6 +145,7 @@ def test_a_body_that_turns_with_one_rate_alone_is_quoted_without_a_sign() -> Non
     assert told == "Rigid body 'roll' turns with (R - r)*phi'/r alone."
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "wrong",
     ["m2*(a^2*u'^2 + b^2*w'^2 + 2*a*b*u'*w'*cos(w))", "m2*((a*u' + b*w'*cos(w))^2 + (b*w'*sin(w))^2)"],
@@ -212,6 +213,7 @@ def test_an_own_lagrangian_is_no_reason_where_nobody_wrote_one() -> None:
     assert "T* + V" in said(unbalance(), lagrangian)[0] or "wrong sign" in said(unbalance(), lagrangian)[0]
 
 
+@pytest.mark.slow
 def test_balances_are_judged_as_they_stand_beside_what_was_solved_from_them() -> None:
     sheet = (
         "m (R - r) phi'' = f - m g sin(phi)\n"

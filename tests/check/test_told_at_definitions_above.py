@@ -27,6 +27,7 @@ def told(answer: str) -> tuple[int | None, str]:
     return number, " ".join(str(verdict).split())
 
 
+@pytest.mark.slow
 def test_a_determinant() -> None:
     assert told(SOLVED)[0] is None
     number, said = told(SOLVED.replace("A I - B^2", "A I + B^2"))

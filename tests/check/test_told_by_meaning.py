@@ -92,6 +92,7 @@ ENERGY = "T = {} + 1/2 J phi'^2 + 1/2 m {} + 1/2 n {}"
 BLOCK = "(x' + e phi' + w')^2"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("energy", "said"),
     [
@@ -164,6 +165,7 @@ def test_what_is_known_of_one_equation_is_told_beside_a_term_of_another() -> Non
     assert told[1] == "In line 2, on the right-hand side, the term g*m does not belong there.", told
 
 
+@pytest.mark.slow
 def test_an_energy_follows_from_a_wrong_rate_also_where_the_motion_is_an_angle() -> None:
     s = lg.System("child on a swing")
     theta = s.coordinates("theta")

@@ -119,6 +119,7 @@ def test_sines_in_the_other_order_have_the_same_value() -> None:
             assert abs(made.subs(values).evalf() - expr.subs(values).evalf()) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_balance_without_energies_is_told_by_its_own_term() -> None:
     """R S for 2 R S, the arm of a rope at the top of a barrel: no energy of a body counts twice."""
     s = lg.System("barrel")

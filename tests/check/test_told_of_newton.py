@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from functools import cache
 
+import pytest
+
 from lagrangian import Derivation, System
 
 
@@ -37,6 +39,7 @@ M r phi'' = M g - S
 """
 
 
+@pytest.mark.slow
 def test_a_missing_moment_is_written_out_and_no_step_is_named() -> None:
     assert hatch().check(BALANCES).right
     verdict = hatch().check(BALANCES.replace(" - F a cos(phi)", ""))

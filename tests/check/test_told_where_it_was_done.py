@@ -147,6 +147,7 @@ leaf: J theta'' = -S l cos(theta/2) - c theta'
 FULL = ("l cos(theta/2) theta'' - l/2 sin(theta/2) theta'^2", "- m l^2/2 sin(theta/2) cos(theta/2) theta'^2")
 
 
+@pytest.mark.slow
 def test_a_wrong_acceleration_is_told_before_what_follows_from_it() -> None:
     assert bridge().check(BALANCES.format(*FULL)).right
     for short in ("l cos(theta/2) theta''", "-l cos(theta/2) theta''"):
@@ -191,6 +192,7 @@ def test_a_place_is_counted_from_where_the_answer_counts_it() -> None:
 PUT_TOGETHER = "m l^2 theta'' - m A w^2 l sin(theta) sin(w t) {} + m g l sin(theta) = -c theta'"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("term", "said", "squares"),
     [

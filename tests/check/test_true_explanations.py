@@ -86,6 +86,7 @@ def test_a_length_is_no_motion_that_goes_the_other_way(swing: lg.Derivation) -> 
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("force", "said"),
     [

@@ -109,6 +109,7 @@ GUIDED = """(2/3 m l^2 + 15/4 m l^2 sin(phi)^2) phi'' + 15/4 m l^2 sin(phi) cos(
   - 2 k l sin(phi) (2 l cos(phi) - p) = 0"""
 
 
+@pytest.mark.slow
 def test_a_wrong_number_is_told_as_it_stands_and_no_sign_is_blamed() -> None:
     assert guided().check(GUIDED).right
     both = GUIDED.replace("2/3", "1/6").replace("- 2 k", "+ 2 k")

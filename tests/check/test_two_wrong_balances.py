@@ -61,6 +61,7 @@ def test_the_right_answer() -> None:
     assert bar().check(SHEET.format(**GOOD)).right
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slips", [{"brake": "+ c phi1'", "b": ""}, {"brake": "- 2 c phi1'", "b": ""}])
 def test_a_right_balance_is_not_wrong_by_forces_of_two_others(slips: dict[str, str]) -> None:
     found = bar().check(SHEET.format(**{**GOOD, **slips}))
@@ -69,6 +70,7 @@ def test_a_right_balance_is_not_wrong_by_forces_of_two_others(slips: dict[str, s
     assert "was not judged" not in found.to_text().split("Line by line")[0].split("was not judged.", 1)[-1]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("slip", [{"brake": "+ c phi1'"}, {"b": ""}, {"arm": "r"}])
 def test_one_wrong_balance_is_told_as_before(slip: dict[str, str]) -> None:
     found = bar().check(SHEET.format(**{**GOOD, **slip}))

@@ -13,6 +13,7 @@ m l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "work",
     [

@@ -17,6 +17,7 @@ def rows(n: str, *, inertia: str = "I/a^2", k: str = "k") -> str:
     return ROWS.format(n=n, inertia=inertia, k=k)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inertia", ["I/a^2", "I/(4 a^2)"])
 def test_a_way_in_full_is_one_mistake(inertia: str) -> None:
     """The second: the block turns as it should."""

@@ -79,6 +79,7 @@ def test_an_energy_of_one_body_is_held_against_its_own_terms() -> None:
     assert "½ of ½mv²" not in said and "3*m*x'^2/4, not 5*m*x'^2/4" in said
 
 
+@pytest.mark.slow
 def test_a_rate_that_is_right_in_the_other_coordinate_is_not_taken_as_a_whole_velocity() -> None:
     T = "T = J phi'^2/2 + m (r'^2 + r^2 phi'^2)/2\n"
     rows = "(J + m r^2) phi'' + 2 m r r' phi' = Q_phi\nm r'' - m r phi'^2 = Q_r"

@@ -168,6 +168,7 @@ z'' = -s''
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "line", "said"),
     [
@@ -234,6 +235,7 @@ def test_balances_beside_a_wrong_derivative_of_a_constraint_are_right() -> None:
     assert "on the right-hand side, the term -l*sin(psi)*psi'^2 is missing" in str(verdict.mistakes[0].what)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("old", ["tau - S l cos(psi)", "K - M g", "S r - K r"])
 def test_a_wrong_balance_beside_a_wrong_derivative_of_a_constraint_is_not_called_right(old: str) -> None:
     number = next(k for k, x in enumerate(LEVER.split("\n"), 1) if old in x)
@@ -242,6 +244,7 @@ def test_a_wrong_balance_beside_a_wrong_derivative_of_a_constraint_is_not_called
     assert all(f.line.number != number for f in verdict.findings if f.status.right)
 
 
+@pytest.mark.slow
 def test_a_force_may_be_solved_in_a_line_that_says_more() -> None:
     both = "K = M z'' + M g. With z'' = l psi'' cos(psi):  K = M l psi'' cos(psi) + M g"
     verdict = lever().check(FLAT.replace("K = M z'' + M g", both).replace("z'' = l psi'' cos(psi)\n", "", 1))
@@ -249,11 +252,13 @@ def test_a_force_may_be_solved_in_a_line_that_says_more() -> None:
     assert all(f.status.right for f in verdict.findings if f.line.number < 4)
 
 
+@pytest.mark.slow
 def test_what_a_force_is_may_stand_far_behind_its_line() -> None:
     far = LEVER.replace("K - M g\n", f"K - M g{60 * ' '}K: pull of the rope on the weight\n", 1)
     assert lever().check(far).right and not lever().check(far.replace("= K - M g ", "= K + M g ")).right
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lost", [" + I/r^2", " + M g l cos(psi)"])
 def test_a_wrong_result_beside_right_balances_is_judged_alone(lost: str) -> None:
     *balances, result = LEVER.split("\n")
@@ -288,6 +293,7 @@ N = m s psi'' - m g sin(psi) + (s/r^2) (P psi'' + b psi')
 In the carrier: (C + m s^2 + P s^2/r^2) psi'' + b s^2/r^2 psi' - m g s sin(psi) = tau"""
 
 
+@pytest.mark.slow
 def test_a_balance_that_a_force_was_solved_from_below_is_the_wrong_line() -> None:
     assert planet().check(PLANET).right
     verdict = planet().check(PLANET.replace("-H r", "-H a").replace("r^2", "(a r)"))
@@ -296,6 +302,7 @@ def test_a_balance_that_a_force_was_solved_from_below_is_the_wrong_line() -> Non
     assert "line 4, on the right-hand side, -H*a should be -H*r" in " ".join(str(verdict.mistakes[0].what).split())
 
 
+@pytest.mark.slow
 def test_a_balance_that_only_says_what_a_force_is_is_not_called_right() -> None:
     wrong = PLANET.replace("= N + H", "= N + 3 H").replace("-H r", "-H a").replace("r^2", "(a r)")
     for term in ("+ (s/(a r))", "+ P s^2", "+ b s^2"):
@@ -328,6 +335,7 @@ y_H'' = -e sin(u) u'' - e cos(u) u'^2
 (B + A a^2 + m (a^2 + e^2 + 2 a e cos(u))) u'' - m a e sin(u) u'^2 - m g e sin(u) + 4 k a^2 u = 0"""
 
 
+@pytest.mark.slow
 def test_a_balance_that_lacks_a_force_which_others_have_by_name_is_the_wrong_one() -> None:
     assert roller().check(ROLLER).right
     verdict = roller().check(ROLLER.replace(" - Z a", "").replace("4 k a^2", "2 k a^2"))
@@ -362,6 +370,7 @@ def hanging() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_components_of_a_force_are_no_generalized_forces() -> None:
     answer = """m x_P'' = Q_x
 m y_P'' = Q_y - m g

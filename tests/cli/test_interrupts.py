@@ -70,7 +70,7 @@ def interrupted() -> dict[str, tuple[int, str]]:
     return {name: (code, said) for name, code, said in map(ast.literal_eval, done.stdout.splitlines())}
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", IMPORTED)
 def test_an_interrupt_while_something_is_imported_is_one_line(interrupted: Any, name: str) -> None:
     assert interrupted[name] == (130, "interrupted\n")
@@ -119,6 +119,7 @@ cli.run()
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "work",
     [

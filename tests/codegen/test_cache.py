@@ -37,6 +37,7 @@ def fresh():
     return compile(double_pendulum(), optional=OPTIONAL)
 
 
+@pytest.mark.slow
 def test_the_second_kernel_comes_from_disk(folder, compilations):
     first = fresh()(Q, V)
     assert len(compilations) == 1
@@ -53,6 +54,7 @@ def test_the_second_kernel_comes_from_disk(folder, compilations):
     assert all(file.suffix == ".o" for file in folder.iterdir())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "damage",
     [

@@ -195,6 +195,7 @@ def test_atan2_all_round(lanes_target):
     assert worst_of(compiled("atan2", *lanes_target), [y, x], mpmath.atan2)[0] <= 3
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["exp", "log", "atan", "asin", "acos", "sinh", "cosh", "tanh"])
 def test_ends_of_the_range_as_the_c_library(name, lanes_target):
     x = np.array([0.0, -0.0, 1.0, -1.0, 2.0, -2.0, 710.4, -710.4, 800.0, -800.0, math.inf, -math.inf, math.nan])

@@ -75,7 +75,7 @@ def test_generalized_forces_are_j_transposed_times_the_old_ones() -> None:
 # -- other coordinates ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("name", "change"),
     [
@@ -149,6 +149,7 @@ def test_the_change_may_say_one_system_s_coordinates_or_the_other_s() -> None:
     assert not wrong.same
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -302,6 +303,7 @@ def test_definitions_of_one_name_and_another_meaning_are_told_apart() -> None:
 # -- reports and the command ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("notation", ["lecture", "physics", "robotics"])
 def test_every_format_is_written(notation: Any) -> None:
     found = lg.compare(_example("lecture-3a"), _example("lecture-3b"))
@@ -342,6 +344,7 @@ def test_the_command_and_its_exits(tmp_path: Path) -> None:
     assert said.exit_code == 0
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "arguments",
     [

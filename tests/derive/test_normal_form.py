@@ -81,6 +81,7 @@ READ = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("expr", READ, ids=lambda e: str(e)[:40])
 def test_form_keeps_the_value(expr: sp.Expr) -> None:
     form = algebra().form(expr)

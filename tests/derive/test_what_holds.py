@@ -107,6 +107,7 @@ def test_an_energy_does_not_say_on_which_masses_it_acts() -> None:
     assert all(check.holds for check in why.checks)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ("lecture-1", "lecture-2", "pendulum"))
 def test_a_lever_without_mass_is_called_so(name: str) -> None:
     assert "at one end at least, on a part without mass" in part(derivation(name).why, 0)
@@ -164,6 +165,7 @@ def test_a_slider_with_a_pendulum_is_held_by_its_rod_too() -> None:
     )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
@@ -230,7 +232,7 @@ def test_a_mass_in_a_slot_of_a_lever_is_pushed_by_coriolis() -> None:
 NAMES = [n for n in examples.names() if n not in {*LARGE, *CIRCUITS}]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("name", NAMES)
 def test_both_ways_have_as_many_unknowns_as_equations(name: str) -> None:
     counted = derivation(name).why.spared

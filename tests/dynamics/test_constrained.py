@@ -52,6 +52,7 @@ def test_corrections_are_the_least_steps(name, keep):
     assert np.abs(values(m, q, v, p, dv=step[0])["dv"] - expected).max() < 1e-11 * (1 + np.abs(expected).max())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_dual_route_agrees(name):
     m, numbers, p = SYSTEMS[name]()

@@ -109,6 +109,7 @@ def test_floating_trees_against_pinocchio(parents):
     held_against_pinocchio(pin, pinocchio_model(pin, parents, 3), s.model, *states(s, 8, 5))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["double-pendulum", "robot-arm", "floating"])
 def test_all_ways_agree(name):
     """Columns, rows, the tape, the mass matrix, products and solutions: the same numbers."""

@@ -162,6 +162,7 @@ def test_mass_matrix_and_energies_against_the_elements(build):
         assert run(made["energy"], at)[key] == pytest.approx(float(whole), rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("build", [cart_and_pole, springs_and_dampers, raw_energies, space], ids=lambda f: f.__name__)
 def test_m_dot_minus_2_c_is_skew_and_bias_is_c_v_plus_g(build):
     model = build()

@@ -86,6 +86,7 @@ def published() -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(read.schema())
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", examples.names())
 def test_a_file_fits_the_published_schema(name: str, published: jsonschema.Draft202012Validator) -> None:
     published.validate(tomllib.loads(examples.text(name)))

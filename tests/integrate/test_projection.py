@@ -64,6 +64,7 @@ def test_without_projection_they_do_not():
     assert off(problem_of("rod"), run.final) > 1e-4
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", METHODS)
 def test_the_rod_swings_as_a_pendulum_does(method):
     times = np.linspace(0, 10, 101)
@@ -73,6 +74,7 @@ def test_the_rod_swings_as_a_pendulum_does(method):
     assert abs(run.states[0, :, :2] - exact).max() < (1e-10 if method not in STEP else 2e-6)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "rk4"])
 def test_the_sleigh_comes_to_run_along_its_course(method):
     times = np.linspace(0, 8, 41)
@@ -124,6 +126,7 @@ def test_measuring_changes_no_bit(method):
         assert drift.position_before[0] >= abs(problem_of("four-bar").rows(measured.states[0])).max() / 2 * (1 - 1e-12)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", [m for m in METHODS if m != "taylor"])  # which differs in the last bits anyway
 def test_a_run_of_many_is_the_run_by_itself(method):
     made = problem_of("rod")

@@ -329,6 +329,7 @@ def test_small_numbers_stand_as_powers_of_ten() -> None:
     assert (figure(2e-5), figure(-1.5e12), figure(0.25), figure(0.0)) == ("2·10⁻⁵", "−1.5·10¹²", "0.25", "0")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("command", ["linearize", "equilibria", "conserved"])
 def test_commands_write_every_format(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     starts = {"text": "pendulum: ", "markdown": "# pendulum: ", "latex": "\\documentclass", "html": "<!DOCTYPE"}

@@ -225,7 +225,7 @@ def test_no_module_of_the_grammar_can_run_text() -> None:
 
 
 @pytest.mark.thinned(3)
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "text",
     [

@@ -232,6 +232,7 @@ BAD = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("text", "line", "column", "fragments"), [b[1:] for b in BAD], ids=[b[0] for b in BAD])
 def test_message_line_and_caret(text: str, line: int | None, column: int | None, fragments: list[str]) -> None:
     with pytest.raises(ModelError) as caught, at_most(CALLS):

@@ -27,6 +27,7 @@ at = ["x", "0"]
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("argv", "advice"),
     [

@@ -42,6 +42,7 @@ def test_svg_goes_to_standard_output(capsys: pytest.CaptureFixture[str]) -> None
     assert code == 0 and ElementTree.fromstring(out.partition("\n")[2]).get("role") == "img"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("argv", "words"),
     [

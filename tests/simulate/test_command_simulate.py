@@ -165,6 +165,7 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
     assert code == 2 and "may be followed by 'hold' or 'linear'" in err
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("written", "words"),
     [

@@ -34,6 +34,7 @@ def test_our_methods_follow_the_damped_oscillator(method: str) -> None:
     assert float(run.audit) < 1e-9
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", SCIPY)
 def test_scipys_methods_follow_the_damped_oscillator(method: str) -> None:
     run = oscillator().simulate(5.0, q=1.0, samples=51, method=method, rtol=1e-8, atol=1e-10)

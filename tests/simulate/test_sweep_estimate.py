@@ -20,6 +20,7 @@ def system() -> lg.System:
     return lg.example("pendulum")
 
 
+@pytest.mark.slow
 def test_an_estimate_counts_the_runs_and_the_bytes_that_follow(system: lg.System, tmp_path: pathlib.Path) -> None:
     asked: list[lg.SweepEstimate] = []
     runs = system.sweep(1.0, GRID, **HOW, threads=1, store=tmp_path / "a.zarr", confirm=asked.append)
@@ -77,6 +78,7 @@ class Terminal(io.StringIO):
         return True
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("answer", "done"), [("y\n", True), ("yes\n", True), ("\n", False), ("", False)])
 def test_the_command_asks_a_terminal(
     tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, answer: str, done: bool

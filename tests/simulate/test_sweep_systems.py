@@ -164,6 +164,7 @@ def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:
     assert runs["inverse"][1] == pytest.approx(1 / np.cos(2.0))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -215,6 +216,7 @@ def test_what_is_wrong_is_told_before_anything_runs(oscillator: lg.System, call,
         call(oscillator)
 
 
+@pytest.mark.slow
 def test_values_missing_are_listed_unless_they_vary() -> None:
     system = lg.System("free")
     x = system.coordinate("x")

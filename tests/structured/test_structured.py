@@ -106,6 +106,7 @@ def test_bodies_in_one_frame_and_two_gravities_keep_their_own_names() -> None:
     assert forces.holds is False and "random states" in forces.figure  # |δ̇| has no value in a field
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "name",
     ["double-pendulum-relative", "robot-arm", "furuta-pendulum", "planar-quadrotor", "crane", "magnetic-levitation"],
@@ -143,6 +144,7 @@ def test_springs_between_points_have_lengths_with_plain_names() -> None:
     assert all(isinstance(x.expression, sp.Pow) and len(x.elements) == 1 for x in lengths)
 
 
+@pytest.mark.slow
 def test_a_line_that_is_changed_is_found(puma_lines: Any) -> None:
     d = puma_lines
     one = next(x for x in d.definitions if x.kind == "force" and x.inward)

@@ -226,6 +226,7 @@ def doubled_coupling(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     yield
 
 
+@pytest.mark.slow
 def test_systems_whose_parameters_have_no_values_are_verified() -> None:
     s = lg.System("without values")
     q = s.coordinate("q")
@@ -457,6 +458,7 @@ def test_a_wrong_run_and_wrong_energies_are_noticed(monkeypatch: pytest.MonkeyPa
     assert [check.holds for check in run_checks(crane().model)] == [False, True]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("ending", [".csv", ".nc", ".parquet", ".npz"])
 def test_a_file_of_a_run_with_a_wrong_number_is_noticed(monkeypatch: pytest.MonkeyPatch, ending: str) -> None:
     plain = tables.ENDINGS[ending]

@@ -85,6 +85,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", REFUSED)
 def test_a_request_that_is_not_of_the_own_page_is_refused(app: Served, case: str) -> None:
     expected, changed = REFUSED[case]

@@ -50,7 +50,7 @@ def check_served(app: Served) -> None:
     assert app.ask("nothing").json() == "nothing"
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("job", "status"), [("spin", 408), ("eat", 507), ("die", 507), ("large", 507), ("deep", 507), ("fail", 500)]
 )

@@ -48,6 +48,7 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
+@pytest.mark.slow
 def test_numbers_of_the_views_are_in_si_units_whatever_the_file_has(kind_app: Served) -> None:
     answer = kind_app.ask("derive", {"model": CART.replace("2 kg", "200 g").replace("8 N/m", "2 N/mm")}).json()
     assert answer["units"] == {"m": "kg", "k": "N/m", "x": "m", "F": "N"}
@@ -156,6 +157,7 @@ def test_a_sweep_is_that_of_the_command_and_comes_row_by_row(
     assert [message["part"]["start"] for message in found[1:]] == sorted({m["part"]["start"] for m in found[1:]})
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("changed", "code"),
     [
@@ -210,12 +212,14 @@ def test_arguments_that_do_not_fit_are_one_error(kind_app: Served, verb: str, ca
     assert answer.json()["error"]["code"] in ("E405", "E406")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("verb", ["derive", "look", "page", "check", "preview", "simulate"])
 def test_a_request_without_a_model_is_one_error(kind_app: Served, verb: str) -> None:
     answer = kind_app.ask(verb, {})
     assert answer.json()["error"]["code"] == "E401"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("changed", "code"),
     [
@@ -292,7 +296,7 @@ FILES = {name: (text, line, column) for name, text, line, column, _ in test_bad_
 CONSTRAINTS = {f"constraint: {name}": case for name, case in test_bad_constraints.BAD.items()}
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("case", FILES)
 def test_a_bad_file_is_told_at_its_line(kind_app: Served, case: str) -> None:
     text, line, column = FILES[case]

@@ -86,6 +86,7 @@ def flat(sheet: lg.Worksheet) -> str:
     return " ".join(sheet.question().split())
 
 
+@pytest.mark.slow
 def test_values_that_a_description_derives_follow_the_others() -> None:
     model = rod().model
     m, h, inertia, w = (next(p.symbol for p in model.parameters if p.name == n) for n in ("m2", "h", "I1", "w"))
@@ -98,6 +99,7 @@ def test_values_that_a_description_derives_follow_the_others() -> None:
         assert [c.holds for c in made.verify() if "formulas" in str(c.what)] == [True], made.to_toml()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("words", "held"),
     [
@@ -228,6 +230,7 @@ def test_constants_of_nature_keep_their_values() -> None:
     assert kept == ["epsilon"]
 
 
+@pytest.mark.slow
 def test_no_two_forces_act_at_one_place() -> None:
     """The hoist of the crane pulls at the rope, not at the trolley beside the drive."""
     for seed in range(1, 5):

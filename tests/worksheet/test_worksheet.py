@@ -96,6 +96,7 @@ def test_a_question_sheet_has_the_figure_where_the_format_has_figures() -> None:
     assert "Spring k between cart m₁ and cart m₂" in " ".join(made.question().split())
 
 
+@pytest.mark.slow
 def test_words_follow_what_a_variant_changes() -> None:
     found = (sheet("lecture-3b", seed) for seed in range(100, 130))
     made = next(m for m in found if {"x2r absolute"} < {*m.changes} and not any("spring" in c for c in m.changes))

@@ -212,6 +212,7 @@ def test_a_check_that_fails_is_shown_as_failing(derivations):
 # -- Markdown -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("notation", NOTATIONS)
 def test_markdown_tables_are_well_formed(derivations, notation):
     for d in derivations.values():
@@ -288,6 +289,7 @@ class Page(HTMLParser):
         self.words += data
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("brief", [False, True])
 @pytest.mark.parametrize("name", MODELS)
 def test_html_is_well_formed_and_self_contained(derivations, name, brief):
