@@ -45,17 +45,19 @@ class Budget:
 def each(expr: sp.Basic) -> Iterator[sp.Basic]:
     """Yield every part of an expression once, its own parts before it; shared parts are visited once."""
     done: set[int] = set()
-    stack: list[tuple[sp.Basic, bool]] = [(expr, False)]
+    begun: set[int] = set()
+    stack: list[sp.Basic] = [expr]
     while stack:
-        node, ready = stack.pop()
+        node = stack[-1]
         if id(node) in done:
-            continue
-        if ready or not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            stack.pop()
+        elif id(node) in begun or not (parts := node.args) or isinstance(node, (AppliedUndef, sp.Derivative)):
+            stack.pop()
             done.add(id(node))
             yield node
         else:
-            stack.append((node, True))
-            stack += [(a, False) for a in node.args]
+            begun.add(id(node))
+            stack += parts
 
 
 def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:

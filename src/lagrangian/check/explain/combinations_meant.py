@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import sympy as sp
 
@@ -65,7 +66,7 @@ def meant_combinations(
         tried = [
             (meant, i, j, sign)
             for i, j, sign in _pairs(truth.n)
-            if {names[i], names[j]} & beside and (meant := _compared(truth, f, i, j, sign))
+            if {names[i], names[j]} & beside and (meant := _compared(truth, f.line.expr, i, j, sign))
         ]
         best = min(tried, key=lambda x: len(x[0]), default=None)
         if best is None or len(best[0]) > MOST_TOLD or 2 * len(best[0]) >= len(f.differences) + half:
@@ -86,11 +87,12 @@ def _pairs(n: int) -> Iterator[tuple[int, int, int]]:
             yield i, j, 1
 
 
-def _compared(truth: Reference, finding: Finding, i: int, j: int, sign: int) -> tuple[TermDifference, ...]:
-    """The terms in which a line differs from two right equations together; none where it cannot be compared."""
+@lru_cache(maxsize=100)
+def _compared(truth: Reference, expr: sp.Expr, i: int, j: int, sign: int) -> tuple[TermDifference, ...]:
+    """The terms in which a line differs from two right equations together; none where it cannot be compared. They are
+    kept, as a line is compared again when its mistakes are known."""
     if max(terms(truth.rows[i]), terms(truth.rows[j])) > MOST_TERMS:
         return ()
-    expr = finding.line.expr
     both: sp.Expr = truth.rows[i] + sign * truth.rows[j]
     mine, right = truth.form(expr), truth.form(both)
     if mine is None or right is None:

@@ -133,7 +133,7 @@ def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> b
     with some of these values."""
     named = bounded.symbols(line.expr) - {time}
     known, moving = every[-1].keys(), {c.symbol for c in truth.model.coordinates}
-    if line.kind != "equation" or not named or not named <= known or bounded.operations(line.expr) > LONGEST:
+    if line.kind != "equation" or not named or not named <= known:
         return False
     if (
         not bounded.atoms(line.expr, AppliedUndef)
@@ -142,7 +142,7 @@ def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> b
     ):
         return False
     numeric = [x for x in sp.Add.make_args(line.expr) if not x.free_symbols - {time}]
-    if not numeric or truth.derivation.multipliers:
+    if not numeric or truth.derivation.multipliers or bounded.operations(line.expr) > LONGEST:
         return False
     put = ({p: sp.Rational(str(v)) for p, v in values.items()} for values in every if named <= values.keys())
     return any(zero_everywhere(truth, cast("sp.Expr", line.expr.xreplace(x))) for x in put)
@@ -158,20 +158,26 @@ def _as_said(line: AnsweredLine, said: Sequence[AnsweredLine]) -> AnsweredLine:
 def _says_amount(line: AnsweredLine, values: _Values, *, chain: bool) -> bool:
     """Whether a line equates letters of which all values are known with a number, which may be 0 in a ``chain`` with
     numbers: m a - m_c b = 0.016 - 0.016 = 0. Alone, m a - m_c b = 0 is a condition."""
-    named = bounded.symbols(line.expr)
-    if line.kind != "equation" or not named or not named <= values.keys() or bounded.atoms(line.expr, AppliedUndef):
+    if not _is_of_letters(line, values):
         return False
     number = _number_in(line.expr)
     counts = number != 0 or (chain and 0 in (line.sides or ()))
     return bool(counts and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
 
 
+def _is_of_letters(line: AnsweredLine, values: _Values) -> bool:
+    """Whether a line is an equation of letters alone, of which all values are known."""
+    named = bounded.symbols(line.expr)
+    return bool(
+        line.kind == "equation" and named and named <= values.keys() and not bounded.atoms(line.expr, AppliedUndef)
+    )
+
+
 def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> list[AnsweredLine]:
     """The true equations of letters with letters in the chain of such a line: m g l/2 = 1.5·0.45 g = 6.622."""
     found: list[AnsweredLine] = []
     for line in lines:
-        named = bounded.symbols(line.expr)
-        if line.kind == "equation" and named and named <= values.keys() and not bounded.atoms(line.expr, AppliedUndef):
+        if _is_of_letters(line, values):
             terms = [_amount(truth, x, values) for x in sp.Add.make_args(line.expr)]
             found += [line] if abs(sum(terms)) <= EXACT * max(map(abs, terms)) else []
     return found
@@ -182,7 +188,8 @@ def _without_relations(
 ) -> tuple[list[AnsweredLine], tuple[Text, ...]]:
     """The lines, in which relations of several parameters alone that hold with the values of the system are statements,
     and notes that say so."""
-    found = [x for x in lines if len(bounded.symbols(x.expr)) > 1 and bounded.operations(x.expr) <= LONGEST]
+    found = [x for x in lines if len(bounded.symbols(x.expr)) > 1 and _is_of_letters(x, values)]
+    found = [x for x in found if bounded.operations(x.expr) <= LONGEST]
     held = {id(x): x for x in _links(truth, found, values)}
     kept = [replace(x, kind="statement") if id(x) in held else x for x in lines]
     why = "it is a relation of parameters that holds with the values of the system, and no equation of motion"

@@ -109,4 +109,4 @@ def with_values_above(text: TracedText) -> TracedText:
         whole = f"{match['name']}{match['is']}{match['name']}"
         return whole if above.search(text.text, 0, match.start()) else match.group()
 
-    return text.sub(_GOES_ON, named)
+    return text.sub(_GOES_ON, named) if any(x in text.text for x in ("...", "…", "dots")) else text

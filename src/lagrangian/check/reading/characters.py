@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import lru_cache
 
 from lagrangian.read.letters import SPELLED
 
@@ -89,9 +90,10 @@ def _with_typed_dots(text: str) -> str:
     return _COMMAND.sub(lambda m: _TYPED.get(m[1]) or f" {m[1].removeprefix('var')}", made)
 
 
+@lru_cache(maxsize=16)
 def plainer(text: str) -> str:
     """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
-    characters without width left out."""
+    characters without width left out; kept, as several readers of an answer ask for it."""
     text = _UMLAUT.sub(lambda m: unicodedata.normalize("NFC", m.group()), _SMALL.sub(_fraction, text))
     text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n")))
     text = _BAR.sub(lambda m: "─" * len(m.group()), text).translate(_TABLE)

@@ -79,5 +79,6 @@ def is_slope(symbol: sp.Basic) -> bool:
 
 def multiple_of_energy(side: sp.Expr) -> tuple[str, sp.Expr] | None:
     """Which energy a side is, and how often: 2 T; None for any other."""
-    held = [(kind, side / energy) for kind, energy in ENERGIES.items() if side.has(energy)]
+    functions = bounded.atoms(side, AppliedUndef)
+    held = [(kind, side / energy) for kind, energy in ENERGIES.items() if energy in functions]
     return held[0] if len(held) == 1 and held[0][1].is_number else None

@@ -145,8 +145,9 @@ class AnswerScope(Scope):
         the name is ``rated`` in the answer."""
         known = super().meanings
         for k in range(1, len(word) if word not in GREEK.values() else 0):
-            last = known(word[k:])[0]
-            if known(word[:k])[0] and last and not (rated and word in self._rated and not any(map(self._moves, last))):
+            if not known(word[:k])[0] or not (last := known(word[k:])[0]):
+                continue
+            if not (rated and word in self._rated and not any(map(self._moves, last))):
                 return True
         return False
 

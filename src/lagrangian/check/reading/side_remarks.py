@@ -118,6 +118,7 @@ _STATED = re.compile(
 _ENDS = re.compile(r"[.;!?](?=\s|\Z)")
 _MARKS = re.compile(r"\$|\\[\[\]()]|\\(?:begin|end)\{")
 _TEX = re.compile(r"\\(?:dot|ddot|equiv|text|mathrm|approx|to|rightarrow|ll|gg)(?![A-Za-z])|[\\${}&`*]")
+_BLANK = dict.fromkeys(map(ord, "${}&`*"), " ")
 _SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "≪", "gg": "≫"}
 
 
@@ -289,7 +290,8 @@ def _kind(line: str) -> str | None:
 def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Callable[[str], bool]) -> Iterator[_Remark]:
     """The sentences of a line that hold only under a condition, each with the line below if it goes on there."""
     line = lines[k]
-    if "=" not in _plain(line) and not re.search("→|->|≪|≫", _plain(line)):
+    plain = _plain(line)
+    if not any(x in plain for x in ("=", "→", "->", "≪", "≫")):
         return
     ends = [*(m.end() for m in _ENDS.finditer(line)), len(line)]
     start = 0
@@ -329,6 +331,8 @@ def _rest_states(part: str) -> bool:
 
 def _plain(line: str) -> str:
     """A line without the marks of LaTeX and Markdown, of the same length."""
+    if "\\" not in line:
+        return line.translate(_BLANK)
     return _TEX.sub(lambda m: _SIGNS.get(m.group()[1:], " ").ljust(len(m.group())), line)
 
 

@@ -88,7 +88,8 @@ def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
 
     ``named``: the answer gives forces the ends of coordinates' names, so that Q_1 beside Q_m is that of phi_1.
     """
-    match = _FORCE.match(spelled(name))
+    written = spelled(name)
+    match = _FORCE.match(written) if written.startswith(("Xi", "Q", "tau")) else None
     if match is None or find(name, model.symbols):
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):

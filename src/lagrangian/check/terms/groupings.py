@@ -86,7 +86,7 @@ def _slopes(truth: Reference, index: int) -> Iterator[sp.Expr]:
     for e in model.elements:
         for sign, energy in ((1, e.kinetic(model)), (-1, e.potential(model))):
             if energy is not None and bounded.size(energy) <= LONGEST and energy.has(q):
-                yield cast("sp.Expr", sign * sp.diff(truth.expand(energy), q))
+                yield sign * bounded.diff(truth.expand(energy), q)
 
 
 def _products(truth: Reference, term: sp.Expr) -> Sequence[sp.Expr]:

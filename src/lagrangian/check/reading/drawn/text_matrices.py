@@ -74,7 +74,7 @@ def on_one_line(written: TracedText) -> TracedText:
     if "\\" not in written.text:
         written = written.sub(_BRACED_NAME, lambda m: m["name"]).sub(_BRACED_COLUMN, lambda m: f"[{m['entries']}]")
     written = _blocks(_named_rows(written.edited(_named_in_the_middle(written.text))))
-    if not _ARRAY.search(written.text):  # in which @ ends a row
+    if "@" in written.text and not _ARRAY.search(written.text):  # in which @ ends a row
         written = written.sub(_AT, lambda match: " * ")
     written = written.edited(tuples(written.text))
     written = written.edited(tuple_sides(written.text))

@@ -21,7 +21,8 @@ from lagrangian.read.letters import SPELLED
 
 _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _MODULE = re.compile(
-    r"(?<![\w.])(?:np|numpy|jnp|math|Math|cmath|sp|sy|sym|sympy|smp|ca|casadi|mp|mpmath|torch|onp)\.(?P<name>[A-Za-z]\w*)"
+    r"(?<![\w.])(?=[A-Za-z]{2,6}\.)"  # few words have a point behind them
+    r"(?:np|numpy|jnp|math|Math|cmath|sp|sy|sym|sympy|smp|ca|casadi|mp|mpmath|torch|onp)\.(?P<name>[A-Za-z]\w*)"
 )
 _CALLED = {
     "array": "Matrix",

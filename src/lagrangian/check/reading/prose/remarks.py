@@ -27,7 +27,7 @@ _OPERATOR = re.compile(
 _GAP = r"(?:\.{2,3}|…|[*_~-])"
 _MARK = r"(?:dd?ot|dd?|pp?|punkt|['’′]{1,2})"
 _LEGEND = re.compile(
-    rf"(?<![\w.)\]])(?:{_GAP}{_MARK}|{_MARK}{_GAP})(?![\w.])[ \t]?(?:=|:|is|are|means?|for)[ \t]?"
+    rf"(?=[-.…*_~dp'’′])(?<![\w.)\]])(?:{_GAP}{_MARK}|{_MARK}{_GAP})(?![\w.])[ \t]?(?:=|:|is|are|means?|for)[ \t]?"
     r"(?:(?:the|a|first|second|1st|2nd|time|angular)[ \t-]){0,4}"
     r"(?:rates?|velocit(?:y|ies)|speeds?|derivatives?|accelerations?|d\^?[2²]?/dt\^?[2²]?)(?![\w/*(])",
     re.IGNORECASE,

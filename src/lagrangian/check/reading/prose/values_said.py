@@ -72,6 +72,8 @@ _STILL = re.compile(
     r"steh(?:en|t)|immobile|maintenir)\b",
     re.IGNORECASE,
 )
+_SPEAKS = re.compile(r"[^\W\d_]{4}|0")
+"""What stands in all that these speak of: a word, or the time 0."""
 
 
 def values_said(text: str, names: Names) -> Mapping[int, frozenset[str]]:
@@ -119,6 +121,8 @@ def _above(lines: Sequence[str], k: int) -> int:
 
 def _cues(line: str) -> frozenset[str]:
     """What kinds of motion the words of a line speak of."""
+    if _SPEAKS.search(line) is None:
+        return frozenset()
     kinds = ((STILL, REST), (STILL, _STILL), (STEADY, _STEADY), (START, _START))
     return frozenset(kind for kind, words in kinds if words.search(line))
 

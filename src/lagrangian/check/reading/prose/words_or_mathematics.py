@@ -71,6 +71,7 @@ _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\
 _ASIDE = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]){2,16}[^\W\d_]{1,24})[.,;:!]?\s*\Z")
 """Words alone behind a gap: ρ = e + l sin θ      distance of a ball from the axis."""
 _ENDS = re.compile(r"[\w\u0307\u0308)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
+_PARTS = re.compile(r"['’-]")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
 _RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
@@ -382,7 +383,7 @@ def in_words(text: str, words: Words) -> bool:
 
 def is_word(written: str, words: Words) -> bool:
     """Whether this is a word and no name: long enough, and nothing that the system or the answer has."""
-    parts = re.split(r"['’-]", written)
+    parts = _PARTS.split(written)
     return any(
         len(x) >= _SHORTEST and not words.readable(x) and not words.is_product(x) and not words.names.known(x)
         for x in parts

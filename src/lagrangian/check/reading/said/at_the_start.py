@@ -17,6 +17,7 @@ _VALUE = re.compile(
     r"(?P<of>(?<![\w\\])(?:\\d?dot[ ]?(?:\{[ ]?)?)?\\?(?P<name>[^\W\d_][\w\u0307\u0308]{0,15})(?:[ ]?\})?"
     rf"(?:_\{{\w{{1,8}}\}})?['’′″]{{0,2}})[ ]?{_START}"
 )
+_ZERO = re.compile(_START)
 
 
 def with_start_alone(written: TracedText, moves: Callable[[str], bool]) -> TracedText:
@@ -29,4 +30,4 @@ def with_start_alone(written: TracedText, moves: Callable[[str], bool]) -> Trace
         starts = moves(undotted(match["name"])[0]) and accelerates_in(line)
         return match["of"].ljust(len(match.group())) if starts else match.group()
 
-    return written.sub(_VALUE, bare)
+    return written.sub(_VALUE, bare) if _ZERO.search(text) is not None else written

@@ -70,7 +70,8 @@ _SURE = _forms(
     rf"(?<!\w){_OWN}{_GAP}(?:is{_GAP}(?:called|renamed|written(?:{_GAP}as)?)|heißt)(?:{_GAP}(?:hier|bei{_GAP}mir|here))?"
     rf"{_GAP}(?P<new>{_NAME})(?:{_GAP}here)?{_END}",
 )
-"""Forms that say nothing else."""
+_PIECES = "nstead place eu rather stat stelle stand steht repla correspond ersetz entspr fo fü ( nam all tten sst"
+"""Forms that say nothing else, and pieces of them of which one stands in what they say, in small letters."""
 _LIKELY = _forms(
     rf"{_NEW}{_LINK}{_WORD}{{1,8}}\([ \t]?(?:[=≙][ \t]?)?(?P<rest>[^()=]{{1,60}})\){_END}",
     rf"{_NEW}{_GAP}{_IS}{_GAP}{_REST}",
@@ -127,7 +128,7 @@ _VARIANTS = {"varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "var
 _MARKS = str.maketrans("", "", "$\\{}`*")
 _IN_WORDS = "is it in on of to as at by or an no so we my if be he do ist im am es zu"
 _OF = "of on in at to from between by von an auf in zwischen am im"
-_NO_LETTERS, _PREPOSITIONS = frozenset(_IN_WORDS.split()), frozenset(_OF.split())
+_NO_LETTERS, _PREPOSITIONS, _CUES = (frozenset(x.split()) for x in (_IN_WORDS, _OF, _PIECES))
 
 
 @dataclass(frozen=True)
@@ -184,8 +185,9 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
     """
     system = _System(model)
     legend = _DOTTED.sub(lambda m: f"{m['new']}:".ljust(len(m.group())), text)
-    found = list(islice(_declared(legend, system), MOST))
-    relations = list(islice(_relations(text, system), MOST))
+    items = list(_items(legend))
+    found = list(islice(_declared(legend, system, items), MOST))
+    relations = list(islice(_relations(text, system, items if legend == text else [*_items(text)]), MOST))
     if not found and not relations:
         return DeclaredLetters({}, text)
     bare = _blanked(text, [x.span for x in found])
@@ -237,8 +239,8 @@ def _is_factor(before: str, system: _System) -> bool:
     return named or before[-1:] in _OPERATORS
 
 
-def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
-    """The declarations in their order, each once."""
+def _declared(text: str, system: _System, listed: Sequence[tuple[int, int, bool]]) -> Iterator[DeclaredLetter]:
+    """The declarations in their order, each once; those of the items ``listed`` last."""
     spans: list[tuple[int, int]] = []
     for match in _GROUP.finditer(text):
         new, own = ([_bare(x.group()) for x in _ANY.finditer(y)] for y in (match["new"] + match["more"], match["own"]))
@@ -273,7 +275,7 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
         if _may_be(new, named, system) and all(b <= span[0] or span[1] <= a for a, b in spans):
             spans.append(span)
             yield DeclaredLetter(new, system.find(named)[0], span, True)
-    for start, end, led in _items(text):
+    for start, end, led in listed:
         if any(a < end and start < b for a, b in spans):
             continue
         said = _said(text[start:end], system, led=led)
@@ -284,7 +286,8 @@ def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
 
 def _said(item: str, system: _System, *, led: bool) -> tuple[str, str, bool] | None:
     """The letter, the name of the system and whether it is sure, of an item that declares one."""
-    for forms, sure in ((_SURE, True), (_LIKELY, False), (_LED if led else (), False)):
+    surely = _SURE if any(map(item.casefold().__contains__, _CUES)) else ()
+    for forms, sure in ((surely, True), (_LIKELY, False), (_LED if led else (), False)):
         for form in forms:
             match = form.search(item)
             if match is None or _MATHEMATICS.search(item[: match.start()]):
@@ -353,11 +356,11 @@ def _items(text: str) -> Iterator[tuple[int, int, bool]]:
                     start = len(paragraph) if match is None else match.end()
 
 
-def _relations(text: str, system: _System) -> Iterator[tuple[int, int, int]]:
-    """Where an item begins, where the relation in its brackets does, and where it ends."""
+def _relations(text: str, system: _System, items: Sequence[tuple[int, int, bool]]) -> Iterator[tuple[int, int, int]]:
+    """Where one of the items begins, where the relation in its brackets does, and where it ends."""
     spans: list[tuple[int, int]] = []
-    for start, end, _ in _items(text):
-        match = _RELATION.search(text[start:end])
+    for start, end, _ in items:
+        match = _RELATION.search(text[start:end]) if text.find("(", start, end) >= 0 else None
         if match is None or any(a < end and start < b for a, b in spans):
             continue
         new, own = _bare(match["new"]), _bare(match["relation"].partition("=")[0].strip())

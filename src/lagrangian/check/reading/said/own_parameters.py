@@ -63,7 +63,10 @@ def own_letters_of(text: str, model: Model) -> OwnLetters:
 
 def _values(text: str, written: str) -> list[str]:
     """What stands behind a letter and =, wherever an answer says so."""
-    found = list(islice(re.finditer(rf"{_BEFORE}{written}[ \t]*&?[ \t]*:?=(?![=>])\s*", text, re.MULTILINE), MOST))
+    stated = rf"{written}[ \t]*&?[ \t]*:?=(?![=>])"
+    if re.search(stated, text) is None:
+        return []
+    found = list(islice(re.finditer(rf"{_BEFORE}{stated}\s*", text, re.MULTILINE), MOST))
     values = [text[m.end() : m.end() + LONGEST] for m in found]
     return [x[: end.start()] if (end := _END.search(x)) is not None else x for x in values]
 

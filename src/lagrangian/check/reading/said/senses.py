@@ -35,6 +35,9 @@ _WAYS = {
 OPPOSITE = {"right": "left", "up": "down", "ahead": "back", "starboard": "port", "clockwise": "counterclockwise"}
 OPPOSITE |= {b: a for a, b in OPPOSITE.items()}
 _WAY = re.compile(r"(?<![\w-])(?:" + "|".join(f"(?P<{k}>{x})" for k, x in _WAYS.items()) + r")(?!\w)", re.IGNORECASE)
+_PIECES = "ght echt left nks up auf oben down ab nten for vor back rück star port clock uhr"
+_CUES = frozenset(_PIECES.split())
+"""Pieces of the ways, in small letters, of which one stands wherever a way is named."""
 _TOKEN = re.compile(r"(?<![\w\\])\\?(?P<name>[^\W\d]\w{0,23}+)")
 _END = re.compile(r"\n|;|[.!?](?=\s|$)")
 _BEGINS = re.compile(r"[\s$`*_{}\\]*+(?:(?:=|:|\(|,|-{1,2}|–|—)[\s$`*]*+)?+")
@@ -65,7 +68,7 @@ def _behind(text: str, name: str) -> Iterator[Sense]:
     start = begin.end() if begin is not None else 0
     stop = _END.search(text, start)
     said = text[start : stop.start() if stop is not None else len(text)]
-    if (way := _WAY.search(said)) is None:
+    if not any(map(said.casefold().__contains__, _CUES)) or (way := _WAY.search(said)) is None:
         return
     between = said[: way.start()]
     if between and (_WORDS.fullmatch(between) is None or _OTHERWISE.search(between) or _has_letter(between)):
