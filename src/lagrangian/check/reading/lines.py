@@ -20,10 +20,10 @@ from lagrangian.check.reading.circles import first_without_circles
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    asides,
     define_rate,
     entries_of,
     forget_unused,
-    is_aside,
     is_general,
     is_of_entries,
     is_rate_of,
@@ -142,9 +142,9 @@ class Lines:
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
-        self._places = {i for i, s in enumerate(self._statements) if is_aside(s, self.names)}
-        self._made |= {i: [] for i in self._places}
         turned = [self.subjects.turned(list(s.sides)) for s in self._statements]
+        self._places = asides(self._statements, turned, self.names)
+        self._made |= {i: [] for i in self._places}
         first = [None if i in self._places else subject for i, (subject, _) in enumerate(turned)]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
