@@ -47,3 +47,28 @@ def test_a_statement_begins_behind_the_full_stop(number: str, stated: str) -> No
     assert right(sheet)
     assert not right(sheet.replace("k/4", "k/5"))
     assert not right(sheet.replace(stated, stated.replace("+", "-")))
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    "said",
+    [
+        "The second cart pulls with N, the outer spring pulls back with k x.",
+        "N pulls outwards, and the outer spring pulls with k x, backwards.",
+        "N acts to the right, the force of the outer spring is k x.",
+        "Der andere Wagen zieht mit N, die Feder zieht mit k x zurück.",
+        "The other cart pulls with N where the spring pulls back with k x.",
+    ],
+)
+def test_what_another_clause_is_about_is_no_value_of_a_name(said: str) -> None:
+    rows = "m x'' = N - k x\nn y'' = F - N\nn y'' = F - c (y - x) - b (y' - x')"
+    assert right(f"{said}\n\n{rows}")
+    assert not right(f"{said}\n\n{rows.replace('N - k x', 'N + k x')}")
+    assert not right(f"{said}\n\n{rows.replace('F - N', 'F + N')}")
+
+
+def test_what_a_clause_says_of_the_name_is_its_value() -> None:
+    rows = "m x'' = N - k x\nn y'' = F - N"
+    for said in ("The other cart pulls with N, which is c (y - x) + b (y' - x').", "N is c (y - x) + b (y' - x')"):
+        assert right(f"{said}\n\n{rows}")
+        assert not right(f"{said}\n\n{rows}".replace("c (y", "b (y"))

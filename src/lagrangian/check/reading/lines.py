@@ -142,6 +142,7 @@ class Lines:
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
+        self.subjects.counted = self.subjects.counted_from_coordinates(s.sides for s in self._statements)
         turned = [self.subjects.turned(list(s.sides)) for s in self._statements]
         self._places = asides(self._statements, turned, self.names)
         self._made |= {i: [] for i in self._places}
@@ -161,7 +162,6 @@ class Lines:
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
         self.names.given_matrices = self._matrices
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
-        self.subjects.left = set(self.subjects.leading)
         self.subjects.gives_rates = set().union(*(self.subjects.in_rates(s.sides) for s in self._statements))
         self.subjects.bare = bare_names(side for s in self._statements for side in s.sides)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
