@@ -5,6 +5,7 @@ Oracle: the energies, derivatives and forces of the cart with a pole. Every tabl
 
 import pytest
 
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 ENERGIES = """\
@@ -96,6 +97,7 @@ FORMS = {
     "words": NAMED.format(matrix=MATRIX, column=COLUMN).replace("**M**", "Here is the mass matrix M(q):"),
     "the corner": NAMED.format(matrix=MATRIX.replace("| | x", "| $M$ | x"), column=COLUMN).replace("**M**", ""),
     "accelerations": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", ""),
+    "coefficients": NAMED.format(matrix=HEADS.replace("| x'' | θ''", "| coefficient of x'' | × θ''"), column=COLUMN),
     "capital Xi": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", "").replace("Q", "Ξ"),
     "another order": "q = (θ, x)ᵀ\n\n"
     + NAMED.format(
@@ -150,3 +152,9 @@ def test_such_a_table_in_latex() -> None:
 def test_a_table_of_something_else_is_no_matrix() -> None:
     told = MATRIX.replace("M + m", "2").replace("J + m l²", "3")
     assert right(f"How often each term was checked:\n\n{told}\n{CART}\n{POLE}")
+
+
+def test_accelerations_alone_above_columns_are_no_equations() -> None:
+    verdict = derivation("cart-pole").check(f"{HEADS}\n{CART}\n{POLE}")
+    assert verdict.right or all(f.status.right for f in verdict.findings)
+    assert not derivation("cart-pole").check(f"{HEADS}\n{CART}\n{POLE}".replace("b x'", "2 b x'")).right

@@ -350,7 +350,7 @@ class Lines:
         if len(values) == 1:
             listed = isinstance(values[0], MatrixBase)
             said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
-            moves = any(map(accelerates, values[0] if listed else values))
+            moves = any(accelerates(x) and not x.is_Derivative for x in (values[0] if listed else values))
             if said and ((meant := labelled(values[0], sides[0], reader, moving=moves)) or not moves):
                 tell_expression(sides[0], reader, "a list" if listed else "an expression")
                 return meant

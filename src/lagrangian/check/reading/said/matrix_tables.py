@@ -32,6 +32,12 @@ _RATED = re.compile(
     rf"|d(?P<two>²|\^2)?[ ]?(?P<of>{_SYMBOL})[ ]?/[ ]?dt(?:²|\^2)?"
 )
 """What stands for a coordinate or its rates in a head."""
+_FACTOR = re.compile(
+    r"(?:[×*·][ ]?|times[ ]|mal[ ]"
+    r"|(?:the[ ])?(?:coefficients?|coeff\.|factors?|Koeffizient|Faktor)[ ](?:of|von|bei)[ ])\$?",
+    re.IGNORECASE,
+)
+"""What may stand in front of what a column is multiplied by."""
 _LABEL = re.compile(
     r"(?:(?:row|eq(?:uation)?\.?|equation of motion|coordinate|line|Zeile|Gleichung|Gl\.|for|of|für|von|d/dt)[ ]?)*"
     r"[(\[]?(?P<of>[^()\[\]\s-]{1,24})[)\]]?"
@@ -150,6 +156,8 @@ class _Reader:
 
     def _head(self, cell: str) -> _Head | None:
         """The coordinate that a cell stands for, with its rates."""
+        lead = _FACTOR.match(cell)
+        cell = cell[lead.end() :].rstrip("$") if lead is not None else cell
         match = _RATED.fullmatch(cell)
         if match is None:
             return None
