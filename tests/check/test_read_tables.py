@@ -95,7 +95,7 @@ HEADS = MATRIX.replace("| | x | θ |", "| | x'' | θ'' |")
 FORMS = {
     "a heading": NAMED.format(matrix=MATRIX, column=COLUMN),
     "words": NAMED.format(matrix=MATRIX, column=COLUMN).replace("**M**", "Here is the mass matrix M(q):"),
-    "the corner": NAMED.format(matrix=MATRIX.replace("| | x", "| $M$ | x"), column=COLUMN).replace("**M**", ""),
+    "the corner": NAMED.format(matrix=MATRIX.replace("| | x", "| **M** | x"), column=COLUMN).replace("**M**", ""),
     "accelerations": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", ""),
     "coefficients": NAMED.format(matrix=HEADS.replace("| x'' | θ''", "| coefficient of x'' | × θ''"), column=COLUMN),
     "capital Xi": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", "").replace("Q", "Ξ"),
