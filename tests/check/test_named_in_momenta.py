@@ -72,7 +72,7 @@ BALANCES = "p_phi' = M with p_phi = (J + m r^2) phi'\np_r' = m r phi'^2 - k (r -
 
 
 @pytest.mark.parametrize("of", ["∂T", "∂L", "∂ℒ"])
-@pytest.mark.parametrize("more", ["", "L = T - V\n", "For M = 0: p_phi = const."])
+@pytest.mark.parametrize("more", ["", "L = T - V\n", "For M = 0: p_phi = const.", "Free: M = 0 → p_phi = const."])
 def test_a_momentum_is_a_slope_of_an_energy_that_the_answer_does_not_give(of: str, more: str) -> None:
     whole = f"{more if more[:1] == 'L' else ''}{SLOPES.format(of=of)}\n\n{BALANCES}{more if more[:1] == 'F' else ''}"
     assert rod().check(whole).right
@@ -88,3 +88,10 @@ def test_a_momentum_is_a_slope_of_an_energy_that_the_answer_does_not_give(of: st
 def test_a_momentum_of_which_only_the_slope_is_said_is_not_known() -> None:
     with pytest.raises(ParseError, match="p_phi"):
         rod().check(f"{SLOPES.format(of='∂T')}\n\np_phi' = M\n{FIRST}")
+
+
+@pytest.mark.parametrize("left", ["d/dt[[{J}] phi']", "d/dt [ [{J}] phi' ]", "d/dt{{[{J}] phi'}}", "d/dt[{J} phi']"])
+def test_brackets_in_brackets_behind_a_derivative(left: str) -> None:
+    for inertia, right in (("J + m r^2", True), ("J + m r", False), ("J - m r^2", False)):
+        grouped = f"({inertia})" if "[{" not in left.replace("[{J} ", "") else inertia
+        assert rod().check(f"{FIRST}\n{left.format(J=grouped)} = M").right is right
