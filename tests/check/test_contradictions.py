@@ -65,3 +65,33 @@ def test_a_force_that_only_an_unused_definition_names_is_not_eliminated() -> Non
     right = "(m1 + m2 + J/R^2)*x'' = (m1-m2)*g"
     assert not derivation("atwood").check(f"{right}\nS1 = m1*(g + x'')\nm2*x'' = S2 - m2*g\nS1=S2", hint=0).right
     assert derivation("atwood").check("m1*x''=m1*g-S1\nm2*x''=S2-m2*g\nJ*x''/R^2=S1-S2", hint=0).right
+
+
+ROWS = "w0 = sqrt(k/m2)\n(m1+m2)*x1'' + m2*x2r'' = 0\nm2*(x1''+x2r'') + m2 w0^2 x2r = F\n\n"
+
+
+@pytest.mark.parametrize(
+    ("number", "holds"),
+    [
+        ("sqrt(8000/37) = 14.7 rad/s", True),
+        ("sqrt(8000/37) = 14.704", True),
+        ("sqrt(8000/37) = 15 1/s", True),
+        ("sqrt(8000/37) = 14.8 rad/s", False),
+        ("sqrt(8000/37) = 14.71", False),
+        ("sqrt(8000/27) = 14.7", False),
+        ("sqrt(9) = 4", False),
+    ],
+)
+def test_the_number_that_a_formula_gives_may_be_rounded(number: str, holds: bool) -> None:
+    assert derivation("lecture-3b").check(f"{ROWS}With the numbers w0 = {number}").right is holds
+
+
+def test_a_multiple_of_delta_may_be_defined() -> None:
+    first = "2δ = b/(J + m l²)"
+    pole = "theta'' + m l x''/(J + m l²) cos theta - m g l/(J + m l²) sin theta = 0"
+    cart = "x'' + m l/(M + m) theta'' cos theta - m l/(M + m) theta'^2 sin theta + 2δẋ = F/(M + m)"
+    sheet = f"Divided by M + m, with 2δ = b/(M + m):\n\n{cart}\n{pole}"
+    assert derivation("cart-pole").check(sheet).right
+    assert not derivation("cart-pole").check(sheet.replace("2δẋ", "δẋ")).right
+    assert not derivation("cart-pole").check(sheet.replace("2δ = b", "2δ = 2 b")).right
+    assert not derivation("cart-pole").check(sheet.replace("2δ = b/(M + m)", first)).right

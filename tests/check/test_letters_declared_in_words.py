@@ -69,6 +69,11 @@ SAID = {
     "Für k schreibe ich D, statt c schreibe ich d.": {"k": "D", "c": "d"},
     "D stands for k, d steht für c, M denotes the mass m1.": {"k": "D", "c": "d", "m1": "M"},
     "$D$ instead of $k$": {"k": "D"},
+    "I write u for x, w for y and D for k.": {"x": "u", "y": "w", "k": "D"},
+    "I write $u$ for $x$, $w$ for $y$, $D$ for $k$ and $M_a$ for m1.": {"x": "u", "y": "w", "k": "D", "m1": "M_a"},
+    "I write $u$ for the position $x$, $w$ for the position $y$, $D$ for $k$": {"x": "u", "y": "w", "k": "D"},
+    "u instead of x, w instead of y, D instead of k": {"x": "u", "y": "w", "k": "D"},
+    "Ich schreibe u für x, w für y, D für k und d für c.": {"x": "u", "y": "w", "k": "D", "c": "d"},
 }
 
 

@@ -10,6 +10,8 @@ from __future__ import annotations
 import pytest
 from small_systems import rod
 
+from lagrangian import ParseError
+
 ENERGIES = "T = 1/2 m (r'^2 + r^2 phi'^2) + 1/2 J phi'^2\nV = 1/2 k (r - a)^2"
 MOMENTA = "p_r = m r'\np_phi = (J + m r^2) phi'"
 FIRST = "m r'' - m r phi'^2 + k (r - a) = 0"
@@ -64,3 +66,33 @@ def test_both_of_two_wrong_balances_are_told() -> None:
     first, second = (str(m.what) for m in verdict.mistakes)
     assert first == "In line 1, on the right-hand side, the term m*r*phi'^2 is missing."
     assert second == "In line 2, m*phi'*r' should be 2*m*phi'*r'."
+
+
+SLOPES = "phi is cyclic, and p_phi = {of}/∂phi' only changes by M."
+BALANCES = "p_phi' = M with p_phi = (J + m r^2) phi'\np_r' = m r phi'^2 - k (r - a) with p_r = m r'\n"
+
+
+@pytest.mark.parametrize("of", ["∂T", "∂L", "∂ℒ"])
+@pytest.mark.parametrize("more", ["", "L = T - V\n", "For M = 0: p_phi = const.", "Free: M = 0 → p_phi = const."])
+def test_a_momentum_is_a_slope_of_an_energy_that_the_answer_does_not_give(of: str, more: str) -> None:
+    whole = f"{more if more[:1] == 'L' else ''}{SLOPES.format(of=of)}\n\n{BALANCES}{more if more[:1] == 'F' else ''}"
+    assert rod().check(whole).right
+    for was, now in (
+        ("= M with", "= -M with"),
+        ("(J + m r^2)", "(J + 2 m r^2)"),
+        ("m r phi'^2", "m phi'^2"),
+        ("= m r'", "= J r'"),
+    ):
+        assert was in whole and not rod().check(whole.replace(was, now)).right
+
+
+def test_a_momentum_of_which_only_the_slope_is_said_is_not_known() -> None:
+    with pytest.raises(ParseError, match="p_phi"):
+        rod().check(f"{SLOPES.format(of='∂T')}\n\np_phi' = M\n{FIRST}")
+
+
+@pytest.mark.parametrize("left", ["d/dt[[{J}] phi']", "d/dt [ [{J}] phi' ]", "d/dt{{[{J}] phi'}}", "d/dt[{J} phi']"])
+def test_brackets_in_brackets_behind_a_derivative(left: str) -> None:
+    for inertia, right in (("J + m r^2", True), ("J + m r", False), ("J - m r^2", False)):
+        grouped = f"({inertia})" if "[{" not in left.replace("[{J} ", "") else inertia
+        assert rod().check(f"{FIRST}\n{left.format(J=grouped)} = M").right is right

@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from small_systems import pendulum
 
 import lagrangian as lg
 from built_in import derivation
@@ -273,3 +274,28 @@ def test_a_definition_of_the_system_takes_the_place_of_a_coordinate(without: str
     assert judge.check(text, hint=0).right
     for now, wrong in (("Q_x1 = -F", "Q_x1 = F"), ("Q_X2 = F", "Q_X2 = -F"), ("∂L/∂X2 = -k", "∂L/∂X2 = k")):
         assert now in text and not judge.check(text.replace(now, wrong), hint=0).right
+
+
+GAMMA = "m l^2 gamma'' + b gamma' - m g l cos gamma = -M"
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    "said",
+    [
+        "phi = 90° - gamma, so sin phi = cos gamma, cos phi = sin gamma, phi' = -gamma'.",
+        "phi = pi/2 - gamma, so that cos phi = sin gamma.",
+        "gamma = angle below the horizontal, phi = 90° - gamma, cos(phi) = sin(gamma), sin(phi) = cos(gamma)",
+        "phi + gamma = 90°, thus cos phi = sin gamma",
+    ],
+)
+def test_functions_of_an_own_angle_beside_how_it_is_counted(said: str) -> None:
+    assert pendulum().check(f"{said}\n\n{GAMMA}").right
+    for was, now in (
+        ("cos phi = sin", "cos phi = -sin"),
+        ("cos phi = sin", "cos phi = cos"),
+        ("= -gamma'", "= gamma'"),
+    ):
+        assert was not in said or not pendulum().check(f"{said.replace(was, now)}\n\n{GAMMA}").right
+    assert not pendulum().check(f"{said}\n\n{GAMMA.replace('- m g l cos', '- m g l sin')}").right
+    assert not pendulum().check(f"{said}\n\n{GAMMA.replace('= -M', '= M')}").right

@@ -6,6 +6,7 @@ twin, which stays wrong.
 
 import pytest
 import sympy as sp
+from small_systems import pendulum
 
 from built_in import derivation
 from lagrangian import ParseError, System
@@ -213,3 +214,36 @@ def test_a_letter_is_what_a_program_declares_it_as() -> None:
     assert not d.check(program.replace("'m g alpha k'", "'m alpha g k'"), hint=0).right
     rates = "z = dynamicsymbols('x')\nzd = dynamicsymbols('x', 1)\n"
     assert d.check(rates + program.replace("x'", "zd").replace("m*g*x", "m*g*z").replace("c*x", "c*z"), hint=0).right
+
+
+CALLS = ["diff(diff(L, {v}), 't')", 'diff(diff(L, {v}), "t")', "diff(L, {v}, 't')", "D(D(L, '{v}'), 't')"]
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("call", CALLS)
+def test_what_is_differentiated_by_may_be_a_text_in_quotes(call: str) -> None:
+    sheet = "L = 1/2*m*l^2*phid^2 + m*g*l*cos(phi)\n" + f"{call.format(v='phid')} - diff(L, phi) = M - b*phid"
+    assert pendulum().check(sheet, hint=0).right
+    assert not pendulum().check(sheet.replace("g*l*cos", "g*l*sin"), hint=0).right
+    assert not pendulum().check(sheet.replace("- b*phid", "+ b*phid"), hint=0).right
+
+
+PROGRAM = """from sympy import *
+t, m, l, g, b, M = symbols('t m l g b M')
+phi = Function('phi')(t)
+phid = diff(phi, 't')
+L = m*l**2*phid**2/2 + m*g*l*cos(phi)
+print(diff(diff(L, phid), 't') - diff(L, phi) + b*phid - M)
+"""
+MATLAB = """syms m l g b M phi(t)
+phid = diff(phi, 't');
+L = m*l^2*phid^2/2 + m*g*l*cos(phi);
+eq1 = diff(diff(L, phid), 't') - diff(L, phi) == M - b*phid
+"""
+
+
+@pytest.mark.parametrize("program", [PROGRAM, MATLAB])
+def test_a_program_that_differentiates_by_a_text_in_quotes(program: str) -> None:
+    assert pendulum().check(program, hint=0).right
+    assert not pendulum().check(program.replace("cos(phi)", "sin(phi)"), hint=0).right
+    assert not pendulum().check(program.replace("b*phid", "2*b*phid"), hint=0).right

@@ -5,6 +5,7 @@ Oracle: the energies, derivatives and forces of the cart with a pole. Every tabl
 
 import pytest
 
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 ENERGIES = """\
@@ -80,3 +81,80 @@ def test_a_row_of_sums_states_the_whole_energies() -> None:
     table = f"{PARTS}| total | {whole} | m g l cos theta |\n"
     assert right(f"{table}\n{CART}\n{POLE}")
     assert not right(f"{table.replace('1/2 (J', '1/3 (J')}\n{CART}\n{POLE}")
+
+
+MATRIX = """\
+| | x | θ |
+|---|---|---|
+| x | M + m | m l cos θ |
+| θ | m l cos θ | J + m l² |
+"""
+COLUMN = "- h_x = b x' - m l θ'² sin θ\n- h_θ = - m l g sin θ\n"
+NAMED = "M(q) q'' + h(q, q') = Q\n\n**M**\n\n{matrix}\n**h**\n\n{column}\n**Q**\n\n- Q_x = F\n- Q_θ = 0\n"
+HEADS = MATRIX.replace("| | x | θ |", "| | x'' | θ'' |")
+FORMS = {
+    "a heading": NAMED.format(matrix=MATRIX, column=COLUMN),
+    "words": NAMED.format(matrix=MATRIX, column=COLUMN).replace("**M**", "Here is the mass matrix M(q):"),
+    "the corner": NAMED.format(matrix=MATRIX.replace("| | x", "| **M** | x"), column=COLUMN).replace("**M**", ""),
+    "accelerations": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", ""),
+    "coefficients": NAMED.format(matrix=HEADS.replace("| x'' | θ''", "| coefficient of x'' | × θ''"), column=COLUMN),
+    "capital Xi": NAMED.format(matrix=HEADS, column=COLUMN).replace("**M**", "").replace("Q", "Ξ"),
+    "another order": "q = (θ, x)ᵀ\n\n"
+    + NAMED.format(
+        matrix="| | θ | x |\n|---|---|---|\n| eq. x | m l cos θ | M + m |\n| eq. θ | J + m l² | m l cos θ |\n",
+        column=COLUMN,
+    ),
+    "no heads": NAMED.format(
+        matrix="| | |\n|---|---|\n| M + m | m l cos θ |\n| m l cos θ | J + m l² |\n", column=COLUMN
+    ),
+    "first row as head": NAMED.format(
+        matrix="| M + m | m l cos θ |\n|---|---|\n| m l cos θ | J + m l² |\n", column=COLUMN
+    ),
+    "listed by coordinates": NAMED.format(matrix=MATRIX, column=COLUMN.replace("h_x =", "x:").replace("h_θ =", "θ:")),
+    "listed in order": NAMED.format(matrix=MATRIX, column=COLUMN.replace("- h_x =", "1.").replace("- h_θ =", "2.")),
+    "column as a table": NAMED.format(
+        matrix=MATRIX, column="| | h |\n|---|---|\n| x | b x' - m l θ'² sin θ |\n| θ | - m l g sin θ |\n"
+    ),
+    "column as a row": NAMED.format(
+        matrix=MATRIX, column="| | x | θ |\n|---|---|---|\n| h | b x' - m l θ'² sin θ | - m l g sin θ |\n"
+    ),
+    "equations": "| | x'' | θ'' | rest | = right side |\n|---|---|---|---|---|\n"
+    "| cart | M + m | m l cos θ | b x' - m l θ'² sin θ | F |\n| pole | m l cos θ | J + m l² | - m l g sin θ | 0 |\n",
+}
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("form", FORMS)
+def test_rows_and_columns_that_stand_for_coordinates(form: str) -> None:
+    assert right(FORMS[form])
+    for was, now in (("J + m l²", "J - m l²"), ("- m l θ'²", "+ m l θ'²"), ("| M + m", "| M"), ("l g sin", "l g cos")):
+        assert not right(FORMS[form].replace(was, now)) or was not in FORMS[form]
+
+
+def test_such_a_table_in_latex() -> None:
+    sheet = r"""$\mathbf M\ddot{\mathbf q} + \mathbf h = \mathbf f$ with $\mathbf q = (\theta, x)^T$.
+
+| **M** | $\theta$ | $x$ |
+|---|---|---|
+| $\theta$ | $J + m l^2$ | $m l\cos\theta$ |
+| $x$ | $m l\cos\theta$ | $M + m$ |
+
+- $h_\theta = -m g l\sin\theta$
+- $h_x = b\dot x - m l\dot\theta^2\sin\theta$
+- $f_\theta = 0$, $f_x = F$
+"""
+    assert right(sheet)
+    for was, now in (("J + m l^2", "J"), ("$M + m$", "$M$"), ("= -m g l", "= m g l"), ("(\\theta, x)", "(x, \\theta)")):
+        assert was in sheet
+        assert right(sheet.replace(was, now)) == (was[0] == "(")  # the entries are named by their coordinates
+
+
+def test_a_table_of_something_else_is_no_matrix() -> None:
+    told = MATRIX.replace("M + m", "2").replace("J + m l²", "3")
+    assert right(f"How often each term was checked:\n\n{told}\n{CART}\n{POLE}")
+
+
+def test_accelerations_alone_above_columns_are_no_equations() -> None:
+    verdict = derivation("cart-pole").check(f"{HEADS}\n{CART}\n{POLE}")
+    assert verdict.right or all(f.status.right for f in verdict.findings)
+    assert not derivation("cart-pole").check(f"{HEADS}\n{CART}\n{POLE}".replace("b x'", "2 b x'")).right

@@ -32,6 +32,8 @@ FARTHEST = 50
 ENDS_IN_ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 """How a line ends whose last side is 0."""
 AT_REST = "it is about the position at rest"
+_ANGLE = re.compile(r"(?:sin|cos|tan|cot)[ \t]*[({\\]?[({\\]?[ ]?([^\W\d_]\w{0,15})")
+"""The first name in the argument of a function."""
 _TINY = 10.0 ** (10 - DIGITS)
 _CLOSE = 10.0 ** (5 - DIGITS)
 STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) + sp.I / 5)
@@ -76,7 +78,14 @@ def place_or_approximation(
     if len(changing) > 1:
         return None
     (place,) = changing
-    return "it is about one position" if _is_chosen(expr, place) or _is_at_rest(truth, expr, place) else None
+    chosen = _is_chosen(expr, place) and not _is_of_two_angles(written)
+    return "it is about one position" if chosen or _is_at_rest(truth, expr, place) else None
+
+
+def _is_of_two_angles(written: str) -> bool:
+    """Whether a line equates functions of two angles, of which one is then counted from the other: cos θ = -sin γ."""
+    sides = [{*map(key, _ANGLE.findall(side))} for side in written.split("=")]
+    return len(sides) > 1 and all(sides) and sides[0].isdisjoint(*sides[1:])
 
 
 def is_rate(truth: Reference, expr: sp.Expr) -> bool:

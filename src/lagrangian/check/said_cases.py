@@ -43,7 +43,15 @@ def values_near(truth: Reference, near: Collection[str]) -> list[SaidCase]:
     """The cases of one value each that words say near a line, in an order that does not depend on that of sets."""
     model = truth.model
     named = {x.name: x for x in (*model.coordinates, *model.parameters, *model.inputs)}
-    return [_value(named, x) for x in sorted(near) if x.startswith(AT)]
+    return [_value(named, x) for x in sorted(near) if x.startswith(AT) and _is_known(named, x)]
+
+
+def _is_known(named: Collection[str], said: str) -> bool:
+    """Whether a value that words say is one of a name, and in names, of the system as it is described: not of θ where
+    an answer has γ in its place."""
+    left, _, right = said.removeprefix(AT).partition(" = ")
+    value = right.removeprefix("-")
+    return left.rstrip("'") in named and (value in named or value[:1].isdigit() or value.startswith("oo"))
 
 
 def _holds_gone(expr: sp.Expr, case: SaidCase) -> bool:

@@ -220,7 +220,15 @@ def _moved(
         if line.kind in OWN_DERIVATIVES and not _is_zero(truth, moved.expr):
             moved = replace(line, expr=change.put(_as_put_in(truth, lines, line, table)))
         holds = line.kind in ("equation", "identity") and _is_zero(truth, moved.expr)
+        if not holds and line.kind == "equation" and _relates(line.expr, table):
+            moved = replace(moved, kind="identity")  # cos θ = -sin γ where θ = 90° - γ is about no position
         yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
+
+
+def _relates(expr: sp.Expr, table: dict[sp.Expr, sp.Expr]) -> bool:
+    """Whether an equation of positions holds a coordinate that goes beside what it is given in."""
+    inside = {x for value in table.values() for x in value.atoms(AppliedUndef)}
+    return not expr.has(sp.Derivative) and expr.has(*table) and expr.has(*inside)
 
 
 def _as_put_in(

@@ -1,4 +1,5 @@
-"""Reads braces that group a sum in plain text as round brackets: cos θ {m l (R + l sin θ) + (J - C) sin θ}.
+"""Reads braces that group a sum in plain text as round brackets: cos θ {m l (R + l sin θ) + (J - C) sin θ}; so do
+square ones behind d/dt: d/dt[[J + m r²] φ'].
 
 Braces of lists, indices and labels stay: {theta, 2}, {a == 0, b == 0}, x_{1}, {1}. Every text keeps its length.
 """
@@ -11,13 +12,14 @@ _PAIRS = {"(": ")", "[": "]", "{": "}"}
 _MARK = re.compile(r"[()\[\]{}]|\n[ \t]*\n")
 _SUMMED = re.compile(r"[\w)\]'’′″}²][ \t\n]*[-+−–*·/][ \t\n]*[\w(\[{√]")
 _LISTED = re.compile(r"[,;:=<>]")
+_RATE = re.compile(r"d/dt ?\[")
 _NEAR, MOST = 20, 200
 """How far what stands beside a brace is sought, and the most braces that are looked at."""
 
 
 def with_round_brackets(text: str) -> str:
     """Return a text in which braces around sums and products are round brackets."""
-    if not 0 < text.count("{") <= MOST:
+    if not 0 < text.count("{") + len(_RATE.findall(text)) <= MOST:
         return text
     letters = list(text)
     opened: list[tuple[str, int]] = []
@@ -29,7 +31,8 @@ def with_round_brackets(text: str) -> str:
             opened = []  # a paragraph ends, or what closes is not what was opened
         else:
             opens, start = opened.pop()
-            if opens == "{" and _groups(text, start, at):
+            rated = opens == "[" and text[max(0, start - 5) : start].rstrip().endswith("d/dt")
+            if (opens == "{" or rated) and _groups(text, start, at):
                 letters[start], letters[at] = "(", ")"
     return "".join(letters)
 

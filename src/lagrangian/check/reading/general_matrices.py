@@ -5,6 +5,7 @@ M(q) q'' + n(q, q') = f(q, q', τ)   with M11 = a, M12 = b, …, n1 = c, … and
 Row 1 of M: [a, b]                  M = [a, b; c, d]
 M_xx = a, M_xφ = b, …, n_x = c, …   entries that are named by the coordinates
 | M₁₁ | a |                         M₁₁ = a
+|  | x | φ |   | x | a | b |   …    M_11 = a, M_12 = b, …
 \mathbf{M}(q)\ddot{q} + h(q, \dot q) = 0   with M_{11} = a, …
 """
 
@@ -16,8 +17,10 @@ from dataclasses import replace
 from itertools import islice
 
 from lagrangian.check.reading.name_patterns import LOWERED
+from lagrangian.check.reading.programs.matrices import told_order
+from lagrangian.check.reading.said.matrix_tables import FormLetters, with_matrix_tables
 from lagrangian.check.reading.traced_text import Edit, TracedText
-from lagrangian.read.letters import GREEK
+from lagrangian.read.letters import GREEK, key
 from lagrangian.records import dataclass
 
 MOST = 6
@@ -26,6 +29,8 @@ MOST = 6
 _TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]{1,2000}\|[ \t]*+(?:\n|\Z)){2,40}", re.MULTILINE)
 _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|){1,9}[ \t]*")
 _INDEX = r"_?\{?[1-6₁-₆]{1,2}\}?"
+_COLUMN = r"[A-Za-zΞτΓ]|\\(?:Xi|tau|Gamma)(?![A-Za-z])"
+"""The letter of a column."""
 _NAMED_INDEX = r"_(?:\{[^{}\n=]{1,24}\}|\\[A-Za-z]{2,12}|[^\W\d]{1,12})"
 """An index that names coordinates: M_xφ, M_{\\theta s}."""
 _ENTRY = rf"[A-Za-z]{_INDEX}"
@@ -62,7 +67,7 @@ class _Notation:
     @property
     def term(self) -> str:
         """A column: its name, with what it depends on, or a matrix times the coordinates, or what is written out."""
-        name = self.name.replace("NAME", f"(?:{self.longer}[A-Za-z])")
+        name = self.name.replace("NAME", f"(?:{self.longer}{_COLUMN})")
         return rf"(?:{self.written_out}|{name}{self.of}(?:{self.rates})?)"
 
     def general(self) -> re.Pattern[str]:
@@ -77,7 +82,7 @@ class _Notation:
 
     def part(self) -> re.Pattern[str]:
         """One of the columns that are added up."""
-        name = self.name.replace("NAME", f"(?P<name>{self.longer}[A-Za-z])")
+        name = self.name.replace("NAME", f"(?P<name>{self.longer}{_COLUMN})")
         return re.compile(
             rf"(?P<sign>[-+−]?)[ \t]{{0,9}}(?:(?P<whole>{self.written_out})|{name}{self.of}(?P<rates>{self.rates})?)"
         )
@@ -98,8 +103,8 @@ _PLAIN = _Notation(
     ),
     rates="[ \\t]{0,3}[·*]?[ \\t]{0,3}\\{?[qxzξ](?:['’′\u0307]|(?![\\w'’′\u0307\u0308]))\\}?",
     written_out=r"\[[^\[\]\n=]{1,200}[,;][^\[\]\n=]{1,200}\](?:\^T|ᵀ)?",
-    front=r"(?<![\w'’′)+*/^=-])",
-    behind=r"(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|(?<=[ \t])(?:with|where|mit|wobei)\b))",
+    front=r"(?:(?<![\w*`])(?:\*\*|`)|(?<![\w'’′)+*/^=-]))",
+    behind=r"(?:\*\*|`)?(?=[ \t]*+(?:$|[,;.:](?:$|[ \t])|(?<=[ \t])(?:with|where|mit|wobei)\b))",
     equals="=",
     opened=r"\[|diag[ ]?\(|\((?=[^\n=]{1,200},)",
     matrix=("[", ", ", "; ", "]"),
@@ -142,10 +147,29 @@ def with_general_form(
     which none is ``taken`` by the system; only if it gives all of them."""
     if not 2 <= len(coordinates) <= MOST or not ACCELERATION.search(written.text):
         return written
+    coordinates = _ordered(coordinates, written.text)
+    written = with_matrix_tables(written, coordinates, lambda text: _letters(text, latex=latex), latex=latex)
     if not latex:
         written = _with_rows(_with_entries(written), len(coordinates))
     form = _Form(written.text, coordinates, taken, latex=latex)
     return written.edited(list(form.edits(notes)))
+
+
+def _ordered(coordinates: Sequence[str], text: str) -> Sequence[str]:
+    """The coordinates as an answer lists them, q = (θ, x); as they are if it does not list all of them."""
+    own = {key(name): name for name in coordinates}
+    found = [x for written in told_order(text) if (x := own.get(key(written))) is not None]
+    return found if sorted(found) == sorted(coordinates) else coordinates
+
+
+def _letters(text: str, *, latex: bool) -> FormLetters | None:
+    """The letters of the first general form in an answer."""
+    _, general, part = _FORMS[latex]
+    if (match := general.search(text)) is None:
+        return None
+    parts = [m for side in ("more", "right") for m in part.finditer(match[side]) if m["name"]]
+    squares = frozenset(m["name"] for m in parts if m["rates"])
+    return FormLetters(match["matrix"], squares, frozenset(m["name"] for m in parts) - squares)
 
 
 class _Form:
@@ -197,7 +221,7 @@ class _Form:
 
     def _entries(self, name: str) -> dict[str, str]:
         """The entries of a name that an answer gives, as it writes them."""
-        given = rf"(?<![\w\\])({name}(?:{_INDEX}|{_NAMED_INDEX}))[ \t]{{0,9}}{self.notation.equals}(?!=)"
+        given = rf"(?<![\w\\])({re.escape(name)}(?:{_INDEX}|{_NAMED_INDEX}))[ \t]{{0,9}}{self.notation.equals}(?!=)"
         found = {m.translate(LOWERED) for m in re.findall(given, self.text)}
         begins = len(name.replace("_", ""))
         entries = {re.sub(r"[_{}]", "", m)[begins:]: m for m in found if not self.taken(re.sub(r"[{}]", "", m))}
@@ -225,7 +249,7 @@ class _Form:
 
     def _whole(self, name: str) -> str | None:
         """The name as it is written where it is given a matrix."""
-        named = self.notation.name.replace("NAME", name)
+        named = self.notation.name.replace("NAME", re.escape(name))
         given = rf"(?<![\w\\])(?P<named>{named}){self.notation.of}[ \t]{{0,9}}{self.notation.equals}[ \t\n]{{0,9}}"
         match = re.search(rf"{given}(?:{self.notation.opened})", self.text)
         return None if match is None else match["named"]

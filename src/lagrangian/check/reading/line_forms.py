@@ -16,8 +16,9 @@ from lagrangian.check.reading.answer import AnswerLine, Kind, Summands
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import PI, Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import has_matrix, inside, names_in, only_name, start_of
-from lagrangian.check.reading.placeholders import displacements, is_force, is_placeholder
+from lagrangian.check.reading.placeholders import ENERGIES, displacements, is_force, is_placeholder
 from lagrangian.check.reading.stated import energy_of
+from lagrangian.check.reading.subject import Subject
 from lagrangian.check.reading.summands import negative, summands
 from lagrangian.errors import ParseError, listed
 from lagrangian.model.names import time
@@ -75,9 +76,33 @@ def says_constant(statement: Statement, names: Names) -> bool:
     return constant
 
 
-def is_aside(statement: Statement, names: Names) -> bool:
-    """Whether a statement is no equation but about one position, or about numbers of lines."""
-    return _is_place(statement, names) or _equates_numbers(statement, names)
+def asides(
+    statements: Sequence[Statement], turned: Sequence[tuple[Subject | None, Sequence[Tree]]], names: Names
+) -> set[int]:
+    """The numbers of statements that are no equations but about one position, or about numbers of lines, or that say
+    which slope of an energy a name is, p = ∂T/∂x', where the answer gives no such energy but a value of the name; with
+    the subjects and sides of all."""
+    found = {i for i, s in enumerate(statements) if _is_place(s, names) or _equates_numbers(s, names)}
+    kinds: set[str] = {x.kind for x, sides in turned if x is not None and not _is_difference(sides[-1], names)}
+    given = kinds | {"L"} if {"T", "V"} <= kinds else kinds
+    sloped: dict[str, list[int]] = {}
+    valued = set[str]()
+    for i, (subject, sides) in enumerate(turned):
+        if subject is None or subject.kind != "definition" or subject.order:
+            continue
+        value = inside(sides[-1])
+        general = isinstance(value, Tree) and value.data == "partial" and len(sides) == 2
+        if general and (kind := str(value.children[0]).replace("ℒ", "L")) in ENERGIES and kind not in given:
+            sloped.setdefault(key(str(subject.token)), []).append(i)
+        else:
+            valued.add(key(str(subject.token)))
+    return found | {i for name in valued & sloped.keys() for i in sloped[name]}
+
+
+def _is_difference(side: Tree, names: Names) -> bool:
+    """Whether a side holds the names of energies alone: L = T - V."""
+    found = [str(x) for x, _ in names_in(side)]
+    return bool(found) and all(energy_of(x, names.model) is not None for x in found)
 
 
 def _is_place(statement: Statement, names: Names) -> bool:

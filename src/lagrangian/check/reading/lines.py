@@ -20,10 +20,10 @@ from lagrangian.check.reading.circles import first_without_circles
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    asides,
     define_rate,
     entries_of,
     forget_unused,
-    is_aside,
     is_general,
     is_of_entries,
     is_rate_of,
@@ -142,9 +142,10 @@ class Lines:
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
-        self._places = {i for i, s in enumerate(self._statements) if is_aside(s, self.names)}
-        self._made |= {i: [] for i in self._places}
+        self.subjects.counted = self.subjects.counted_from_coordinates(s.sides for s in self._statements)
         turned = [self.subjects.turned(list(s.sides)) for s in self._statements]
+        self._places = asides(self._statements, turned, self.names)
+        self._made |= {i: [] for i in self._places}
         first = [None if i in self._places else subject for i, (subject, _) in enumerate(turned)]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
@@ -161,7 +162,6 @@ class Lines:
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
         self.names.given_matrices = self._matrices
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
-        self.subjects.left = set(self.subjects.leading)
         self.subjects.gives_rates = set().union(*(self.subjects.in_rates(s.sides) for s in self._statements))
         self.subjects.bare = bare_names(side for s in self._statements for side in s.sides)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
@@ -350,7 +350,7 @@ class Lines:
         if len(values) == 1:
             listed = isinstance(values[0], MatrixBase)
             said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
-            moves = any(map(accelerates, values[0] if listed else values))
+            moves = any(accelerates(x) and not x.is_Derivative for x in (values[0] if listed else values))
             if said and ((meant := labelled(values[0], sides[0], reader, moving=moves)) or not moves):
                 tell_expression(sides[0], reader, "a list" if listed else "an expression")
                 return meant

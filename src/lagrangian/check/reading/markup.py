@@ -61,8 +61,17 @@ def blank(text: str, start: int, end: int) -> str:
     return text[:start] + " " * (end - start) + text[end:]
 
 
-_BEHIND_FORMULA = re.compile(r"(?:(?<=[\^*/]\d)|(?<=['’′²³]))\.(?=[ \t]{1,9}[^\W\d][\w/'’′]{0,23}[ \t]{0,9}=(?!=))")
-"""The full stop behind a formula, where a statement follows: P = F x' - d s'^2. dE/dt = P."""
+_BEHIND_FORMULA = re.compile(
+    r"(?:(?<=[\^*/]\d)(?<!\./\d)|(?<=['’′²³]))\."
+    r"(?=[ \t]{1,9}[^\W\d][\w/'’′]{0,23}(?:[ \t]{0,3}[-−+*/·^]?[ \t]{0,3}\w{1,8}){0,6}[ \t]{0,9}=(?!=))"
+)
+"""The full stop behind a formula, where a statement follows: P = F x' - d s'^2. dE/dt = P; a = π/6. m R + J = 2."""
+_WORDS_BEHIND = re.compile(
+    r"^(?P<stated>[^\n=]{0,80}=[^\n=]{1,200}?[\w)²³'’′\u0307\u0308])\.[ ]"
+    r"(?=[A-Z][a-z]{1,15}[ ][a-z]{2,15}[ ][^\n=]{0,60}[-−+*/_][^\n=]{1,60}$)",
+    re.MULTILINE,
+)
+"""A statement and a full stop, where a sentence with a formula in it follows: N = k s. The block feels -N."""
 _BEHIND_SENTENCE = re.compile(
     r"^(?P<sentence>[ \t]*+(?:[^\W\d_]{1,20}[,:]?[ ]){2,30}[^\W\d_]{1,20}[.!?])[ ]"
     r"(?=(?:[*•-]|\(\w{1,3}\)|\d{1,2}[.)])[ ][^\n]*=)",
@@ -99,9 +108,10 @@ def without_markup(text: str) -> str:
 
 def sentences_apart(text: TracedText) -> TracedText:
     """Return an answer in which a bullet or a label behind a sentence of words begins a line, and a statement behind a
-    formula that a full stop ends; so does each of several labels with a formula on one line, and a sentence of words
-    about a name."""
+    formula that a full stop ends, or a sentence with a formula in it; so does each of several labels with a formula on
+    one line, and a sentence of words about a name."""
     text = text.sub(_ABOUT_NAME, lambda _: ".\n").sub(_LABELLED, lambda m: _NEXT_LABEL.sub(".\n", m.group()))
+    text = text.sub(_WORDS_BEHIND, lambda m: f"{m['stated']}.\n")
     return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n").sub(_BEHIND_FORMULA, lambda _: ";")
 
 

@@ -93,6 +93,7 @@ _NAMED = re.compile(
     re.MULTILINE,
 )
 """A name behind words or a number: 2 Ms = …, Put Js = …."""
+_MULTIPLE = re.compile(r"(?<=\d)[ \t]?(δ)[ \t]*=(?!=)")  # 2δ = b/m says that δ stands for no virtual displacement
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{NAME}))")
 _COUNTED = re.compile(rf"(?<![\w.])\d{{1,3}}[ \t]+((?>{NAME}))[ \t]*\((?=[^()=\n]{{1,80}}[-+−])")
@@ -370,6 +371,7 @@ def _words(lines: Lines, text: str) -> Words:
     defined = (m for m in _DEFINED.finditer(text) if not is_spelled_out(text, m.end(), m[1]))
     own = dict.fromkeys(m[1] for m in defined if not is_value_of_product(m[1], text, m.end(), partial(_value, lines)))
     alone = [m[1] for m in _ALONE.finditer(text)]
+    own |= dict.fromkeys(_MULTIPLE.findall(text))
     system = Words(lines.names, (), ())
     for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …
         word = match[1]

@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.decimals import digits, places
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.components import component_of
 from lagrangian.check.reading.line_forms import accelerates
@@ -26,6 +27,9 @@ from lagrangian.read.letters import key
 
 DIGITS = 30
 """The digits to which two values of a name are compared, at random places."""
+
+FEWEST_DIGITS, HALF = 2, sp.Rational(5_000_001, 10_000_000)
+"""The fewest significant digits of a rounded number, and by what part of its last digit it may be off."""
 
 PLACES = 2
 """The random places at which they are compared; what differs there is judged exactly."""
@@ -47,7 +51,7 @@ def contradicting(
     for _, i, above, value in names.redefined.unused():
         told = " ".join(sources[i].text.split())
         for a, b in _pairs(above, value):
-            if not _differ(a, b):
+            if not _differ(a, b) or _is_rounded(a, b) or _is_rounded(b, a):
                 continue
             if not _comparable(a, b) or any(map(names.is_unknown, bounded.letters(a) | bounded.letters(b))):
                 names.notes.setdefault(f"'{told}' was not judged: the value that is used is another one.")
@@ -61,6 +65,16 @@ def contradicting(
         rate = bounded.diff(place, *[time] * order)
         if _differ(rate, value) and not any(map(names.is_unknown, bounded.letters(rate) | bounded.letters(value))):
             yield i, AnswerLine("identity", value, rate, None, place_of(i), " ".join(sources[i].text.split()))
+
+
+def _is_rounded(number: sp.Expr, exact: sp.Expr) -> bool:
+    """Whether a number is another one that has more decimals, rounded to its last digit: 14.7 and sqrt(8000/37)."""
+    if not isinstance(number, sp.Rational) or not exact.is_number or not exact.is_finite:
+        return False
+    after, more = places(number), places(exact) if isinstance(exact, sp.Rational) else None
+    if after is None or (more is not None and more <= after) or digits(number, after) < FEWEST_DIGITS:
+        return False
+    return bool(abs(sp.N(exact - number, DIGITS)) <= sp.Rational(10) ** -after * HALF)
 
 
 def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:

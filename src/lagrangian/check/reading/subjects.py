@@ -57,10 +57,10 @@ class Subjects:
         """The keys of the names of accelerations, of which other statements are equations of motion."""
         self.bare: set[str] = set()
         """The keys of the names that stand somewhere without a sign of a rate."""
-        self.left: set[str] = set()
-        """The names that a statement defines on its left side."""
         self.leading: Counter[str] = Counter()
         """How many statements begin with a new name alone."""
+        self.counted: set[str] = set()
+        """The keys of the names that the answer counts from a coordinate: γ where θ = 90° − γ."""
         self.plain: frozenset[str] = frozenset()
         """The letters of energies that are names of the answer's own."""
 
@@ -81,7 +81,7 @@ class Subjects:
             order = [len(sides) - 1]  # x1' = x2 says what x2 is
         for i in order:
             subject = subjects[i]
-            if i and subject is not None and key(str(subject.token)) in self.left:
+            if i and subject is not None and key(str(subject.token)) in self.leading:
                 continue  # … = f, where another line says f = …
             if i and subject is not None and subject.token is not None and self._taken(subject.token):
                 continue  # r = R, where R is a radius of the system
@@ -144,8 +144,22 @@ class Subjects:
         return self._derivative_of_energy(inside(side))
 
     def _is_own_angle(self, token: Token) -> bool:
-        """Whether a name in a sine or a tangent is no name of the system, and nothing above says what it is."""
+        """Whether a name in a sine or a tangent is no name of the system, and nothing else says what it is."""
+        if key(str(token)) in self.counted:
+            return False
         return not self._taken(token) and not self.names.is_own(str(token)) and self.names.occurs(token) > 1
+
+    def counted_from_coordinates(self, statements: Iterable[Sequence[Tree]]) -> set[str]:
+        """The keys of new names that statements without functions and rates relate to one coordinate: θ = 90° − γ."""
+        found: set[str] = set()
+        for sides in statements:
+            names = {key(str(token)): token for side in sides for token, _ in names_in(side)} if len(sides) == 2 else {}
+            moving = [x for x in names.values() if self._taken(x) and self.names.changes(x)]
+            new = [x for x, token in names.items() if not self._taken(token) and x != "pi"]
+            calls = any(x.data in ("call", "power_of") for side in sides for x in side.iter_subtrees())
+            if len(moving) == len(new) == 1 and not calls and not any(map(self.moves, sides)):
+                found.add(new[0])
+        return found
 
     def sharing(self, subject: Subject, sides: list[Tree]) -> tuple[list[Tree], list[Token]]:
         """The sides of a definition without those that are new names alone, and these: a_12 = a_21 = m l."""

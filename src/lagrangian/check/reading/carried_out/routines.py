@@ -113,10 +113,11 @@ def dynamic(text: Value, order: int = 0) -> Value:
 
 
 def differentiated(value: Value, by: Sequence[Value]) -> Value:
-    """diff(f, x, y), diff(f, t, 2), diff(f, (t, 2)); by time if nothing is named."""
+    """diff(f, x, y), diff(f, t, 2), diff(f, (t, 2)), diff(f, 't'); by time if nothing is named."""
     left = list(by) or [TIME]
     while left:
         one = left.pop(0)
+        one = sp.Symbol(one) if isinstance(one, str) and one.isidentifier() else one
         count = 1
         if isinstance(one, (list, tuple)) and len(one) == 2:
             one, count = one[0], number(one[1])

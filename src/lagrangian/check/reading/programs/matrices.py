@@ -77,6 +77,12 @@ _BY_TIME = re.compile(r"(?<!\w)d(?P<of>[^\W\d_]\w{0,11}?)(?:/|_)?dt(?!\w)")
 """The rate of a column: dz/dt, dzdt."""
 _ORDER = re.compile(r"\bcoordinates[^\S\n][^\n\[\](=]{0,20}[\[(](?P<entries>[\w ,;]{3,200})[\])]")
 """The order of the coordinates in words: generalized coordinates [x; theta]."""
+_LISTED = re.compile(
+    r"(?<![\w\\])(?:\\(?:mathbf|boldsymbol|bm|vec)[ ]?)?[{*]{0,2}(?:q|z|ξ|\\xi)[}*]{0,2}[ \t$]{0,3}&?[=:][ \t$]{0,3}"
+    r"(?:(?:\\left)?[\[(](?P<plain>[^\[\]()=\n]{3,120}?)(?:\\right)?[\])]"
+    r"|\\begin\{[bp]?matrix\}(?P<latex>[^=\n]{3,160}?)\\end\{[bp]?matrix\})"
+)
+"""The column of the coordinates: q = (θ, s)ᵀ."""
 LONGEST = 400
 """The most characters of a comment that states an equation."""
 
@@ -106,7 +112,10 @@ def with_shown_matrices(written: TracedText) -> TracedText:
 
 def told_order(text: str) -> list[str]:
     """The names of the coordinates in the order in which an answer lists them; none if it does not."""
-    return re.findall(_WORD, match["entries"]) if (match := _ORDER.search(text)) is not None else []
+    if (match := _ORDER.search(text)) is not None:
+        return re.findall(_WORD, match["entries"])
+    match = _LISTED.search(text)
+    return [] if match is None else [x.removeprefix("var") for x in re.findall(_WORD, match["plain"] or match["latex"])]
 
 
 def with_equations_in_comments(written: TracedText, taken: Callable[[str], bool]) -> TracedText:

@@ -3,11 +3,13 @@
 eq1 = "m*xdd + k*x = 0"                     m*xdd + k*x = 0
 T = sympify('m*v**2/2')  "T": "m*v**2/2"    T = m*v**2/2
 eqs = ["a = 0", "b = 0"]                    a = 0⏎b = 0
+diff(diff(L, "v"), 't')                     diff(diff(L, v), t)
 """
 
 from __future__ import annotations
 
 import re
+from itertools import islice
 
 from lagrangian.check.reading.name_patterns import IDENT
 from lagrangian.check.reading.traced_text import TracedText
@@ -40,12 +42,32 @@ _SPOKEN = re.compile(
 )
 """The only text in quotes of a line, which says something; no mark in front of it is that of a name: x"."""
 
+_NAME = re.compile(r"(?<=[,\s])(?P<mark>['\"])(?P<name>[^\W\d]\w{0,15})(?P=mark)(?=[ \t]*[,)])")
+"""A name in quotes among arguments."""
+_DERIVATIVE = re.compile(r"(?<![^\W_])(?:diff|Diff|Derivative|D)\Z")
+_MOST, _FARTHEST = 400, 1_000
+"""The most names in quotes, and characters between one and the bracket that opens the arguments."""
+
+
+def _is_derived(text: str, at: int) -> bool:
+    """Whether what stands at a place is an argument, and not the first, of a function that differentiates."""
+    depth, first = 0, True
+    for k in range(at - 1, max(-1, at - _FARTHEST), -1):
+        depth += (text[k] in ")]}") - (text[k] in "([{")
+        first = first and not (text[k] == "," and depth == 0)
+        if depth < 0:
+            return text[k] == "(" and not first and _DERIVATIVE.search(text, max(0, k - 12), k) is not None
+    return False
+
 
 def without_quotes(written: TracedText) -> TracedText:
     """Return an answer in which formulas that fill a line in quotes stand without these; the name of an equation is
     left out."""
     if "'" not in written.text and '"' not in written.text:
         return written
+    text = written.text
+    named = islice(_NAME.finditer(text), _MOST)
+    written = written.edited((*m.span(), m["name"]) for m in named if _is_derived(text, m.start()))
     return written.sub(_LISTED, _on_lines).sub(_QUOTED, _unquoted).sub(_SPOKEN, _spoken)
 
 

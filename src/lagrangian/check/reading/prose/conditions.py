@@ -64,6 +64,12 @@ _CASE = re.compile(
     re.MULTILINE,
 )
 """A special case, from which an arrow leads to what it would mean: check: m2 = m3 ⇒ y'' = 0."""
+_UNDRIVEN = re.compile(
+    rf"(?:^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?|(?<=\())[ \t]*(?P<said>(?:{_NAME}[ \t]*=[ \t]*){{1,4}}0"
+    rf"(?:{_LINK}(?:{_NAME}[ \t]*=[ \t]*){{1,4}}0){{0,3}})[ \t]*(?:⇒|⟹|=+>|→|-+>|:(?=[ \t][^\n]*=))",
+    re.MULTILINE,
+)
+"""The case without inputs, with what it would mean behind it: u = P = 0 → p_phi = const."""
 _GONE = re.compile(
     rf"(?:^|[:;.,(]|(?<!\w)(?:with|and|or|also|mit|und|avec))[ \t]*(?P<said>{_NAME}[ \t]*(?:=|→|->)[ \t]*0"
     rf"(?:{_LINK}{_NAME}[ \t]*(?:=|→|->)[ \t]*0){{0,4}})(?=[ \t]*(?:$|[,;:)⇒⟹→]|\.(?!\d))|[ \t]+[^\W\d_]{{3}})",
@@ -90,6 +96,7 @@ def without_conditions(text: str, words: Words) -> str:
     found += [m for m in _vanishing(text) if _is_case(m["said"], words)]
     found += _VANISHES.finditer(text)
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
+    found += [m for m in _UNDRIVEN.finditer(text) if _is_undriven(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
         if match.re not in (CONDITION, _SIDES) or not words.is_name(match["word"]):  # si = sin ψ is a factor
@@ -149,3 +156,10 @@ def _is_case(said: str, words: Words) -> bool:
     pairs = [(m["left"], m["right"]) for m in _SAID.finditer(said)]
     named = [words.names.scope.meanings(x)[0] for pair in pairs for x in pair if x != "0"]
     return bool(named) and all(found and found[0] in constants for found in named)
+
+
+def _is_undriven(said: str, words: Words) -> bool:
+    """Whether inputs of the system are set equal to 0."""
+    inputs = {u.name for u in words.names.model.inputs}
+    named = [words.names.scope.meanings(x)[0] for x in re.findall(rf"({_NAME})[ \t]*=", said)]
+    return all(found and found[0] in inputs for found in named)

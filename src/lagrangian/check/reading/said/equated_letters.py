@@ -31,6 +31,20 @@ _DERIVED = re.compile(
 _ANY = re.compile(r"[^\W\d_][\w\u0307\u0308]{0,20}")
 
 
+_SECOND = re.compile(
+    r"(?:instead of|in (?:place|lieu) of|rather than|\bfor|\bfür|statt|anstelle(?: von)?)[ \t\n]{1,9}"
+    r"(?:(?:the|your|die|den|das|der)[ \t\n])?(?:[^\W\d_]{3,20}[ \t\n]){0,2}\Z",
+    re.IGNORECASE,
+)
+"""What stands in front of a name of the system behind the letter for it."""
+
+
+def is_second(text: str, at: int) -> bool:
+    """Whether the name at a place of a text is one for which a letter was given in front of it: in "u for x, w for y, c
+    for k" no list of letters begins with x or with y."""
+    return _SECOND.search(text, max(0, at - 60), at) is not None
+
+
 def equated_letters(
     text: str, is_constant: Callable[[str], bool], is_coordinate: Callable[[str], bool]
 ) -> Iterator[tuple[str, str, tuple[int, int]]]:

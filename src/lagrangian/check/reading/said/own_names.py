@@ -18,7 +18,7 @@ from itertools import islice
 from lagrangian.check.reading.markup import blanked
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
-from lagrangian.check.reading.said.equated_letters import equated_letters
+from lagrangian.check.reading.said.equated_letters import equated_letters, is_second
 from lagrangian.check.reading.said.tabled_letters import tabled_letters
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
@@ -27,7 +27,6 @@ from lagrangian.records import dataclass
 
 MOST = 40
 """The largest number of letters that are declared in words."""
-
 _PRODUCT = 4
 """The most letters of a product without signs in which a name is sought."""
 
@@ -245,7 +244,8 @@ def _declared(text: str, system: _System, listed: Sequence[tuple[int, int, bool]
     for match in _GROUP.finditer(text):
         new, own = ([_bare(x.group()) for x in _ANY.finditer(y)] for y in (match["new"] + match["more"], match["own"]))
         new, own = ([x for x in y if x not in ("and", "und")] for y in (new, own))
-        if len(new) == len(own) and all(_may_be(a, b, system) for a, b in zip(new, own, strict=True)):
+        paired = is_second(text, match.start()) or len(new) != len(own)
+        if not paired and all(_may_be(a, b, system) for a, b in zip(new, own, strict=True)):
             spans.append(match.span())
             sure = re.search(_INSTEAD, match.group()) is not None
             for a, b in zip(new, own, strict=True):

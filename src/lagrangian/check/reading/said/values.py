@@ -83,6 +83,8 @@ _MOST_WORDS = 4
 _OF = frozenset(["of", "von", "de", "du"])
 """Words in front of a name to which belongs what has the value: the lever arm of A is s; not the value of A is s."""
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
+_WHILE = frozenset([",", "while", "whereas", "where", "während", "wobei"])
+"""What else may stand in front of another clause."""
 _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
 _ARTICLE = re.compile(
@@ -294,6 +296,7 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
                 x.lower() in _JOINS and y.lower() in _HAVING for x, y in pairwise(between)
             )  # N and with a couple
             sure = bool(says) and not has and not lower & {"not", "nicht"} and len(first) == len(second)
+            sure &= not _has_own_subject(between)
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
             yield from (
                 (a, b, sure)
@@ -303,6 +306,16 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
         elif (kind, other) == ("value", "name") and len(first) == len(second) and lower & _NAMED:
             sure = bool({x.lower() for x in said} & _NAMED) or "by" in lower or "called" in lower
             yield from ((a, b, sure) for a, b in zip(second, first, strict=True))
+
+
+def _has_own_subject(between: Sequence[str]) -> bool:
+    """Whether words behind a name begin to speak of something else that has the value: the saddle pushes with N, and
+    the arms pull with k s; not N, which is k s."""
+    lower = [x.lower() for x in between]
+    last = max((k for k, x in enumerate(lower) if x in _JOINS | _WHILE), default=None)
+    clause = [] if last is None else lower[last + 1 :]
+    verb = next((k for k, x in enumerate(clause) if x in _IS - {"the"}), 0)
+    return verb > 1 and not _VALUE & set(clause[:verb])
 
 
 def _belongs(said: Sequence[str]) -> bool:
