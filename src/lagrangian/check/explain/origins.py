@@ -22,7 +22,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.difference import differences
 from lagrangian.check.explain.in_own_names import OwnName, own_names, with_names
-from lagrangian.check.explain.numerators import multiplied
+from lagrangian.check.explain.numerators import multiplied, of_solved
 from lagrangian.check.explain.origins_said import Made, with_made
 from lagrangian.check.reading.marked_values import MarkedValue, ValueMarks
 from lagrangian.check.reference import Reference
@@ -73,6 +73,8 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
         expr = marked.get(id(f))
         if f.status is not Status.WRONG or f.follows or not held or expr is None:
             continue
+        if not f.differences and of_solved(verdict.mistakes):
+            continue  # the row is none of an equation with several accelerations
         alone = _names_only(truth, marks, f.line.number)
         made = [Made(f, d, sp.S.One, *x, alone) for d in f.differences for x in _made_in(held, d, alone)]
         differing[id(f)] = f.differences
