@@ -222,3 +222,22 @@ def test_nothing_above_is_blamed_for_a_solved_row(sign: str) -> None:
         "phi'' = -[x'' cos(phi) + g sin(phi)]/l"
     )
     assert verdict.right if sign == "+" else opened(verdict) == {3}
+
+
+@pytest.mark.parametrize("below", ["M - m sin(phi)^2", "M + 2 m sin(phi)^2"])
+def test_a_wrong_denominator_is_wrong_where_it_is_defined(below: str) -> None:
+    rest = (
+        "\nR = m l phi'^2 sin(phi) - k x\nx'' = [R + m g sin(phi) cos(phi)]/D\nphi'' = -[x'' cos(phi) + g sin(phi)]/l"
+    )
+    assert cart().check(f"D = M + m sin(phi)^2{rest}").right
+    verdict = cart().check(f"D = {below}{rest}")
+    assert opened(verdict) == {1}
+    assert first(verdict).startswith("Line 1 is not right: D is not what multiplies the acceleration")
+    assert ("has the wrong sign" in first(verdict)) is ("-" in below)
+    assert ("2*m*sin(phi)^2 should be m*sin(phi)^2" in first(verdict)) is ("2" in below[:6])
+
+
+def test_a_right_denominator_is_not_blamed_for_a_factor_of_the_row() -> None:
+    rest = "R = m l phi'^2 sin(phi) - k x\nphi'' = -[x'' cos(phi) + g sin(phi)]/l"
+    verdict = cart().check(f"D = M + m sin(phi)^2\n{rest}\nx'' = 2 [R + m g sin(phi) cos(phi)]/D")
+    assert opened(verdict) == {4}

@@ -32,6 +32,8 @@ _FACTOR, _IS_NOT = (
     ", once the other accelerations are eliminated, is not.",
 )
 """How words on a line begin and end that is not solved for its acceleration: no fraction stands in it."""
+IN_IT = " In it, "
+"""What stands before its wrong term."""
 _SOLVED = "What is solved for "
 """How words begin that give a number."""
 WHY_BELOW = text("The denominator is what multiplies the acceleration once the others are eliminated: do it once more.")
@@ -126,7 +128,7 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
         if pair is not None and pair[0] != pair[1]:
             one = 0 in pair or pair[0] == -pair[1]
             first, *more = term_replaced(*pair)[1].parts if one else ("", pair[0], " should be ", pair[1], ".")
-            what = text(*told.what.parts, f" In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
+            what = text(*told.what.parts, f"{IN_IT}{str(first)[:1].lower()}{str(first)[1:]}", *more)
             return replace(told, name=TERM_NAME, what=what, why=WHY_BELOW if told.why is WHY else told.why)
     return None if truth.n == 1 else told
 
