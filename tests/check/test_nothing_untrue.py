@@ -241,3 +241,25 @@ def test_a_right_denominator_is_not_blamed_for_a_factor_of_the_row() -> None:
     rest = "R = m l phi'^2 sin(phi) - k x\nphi'' = -[x'' cos(phi) + g sin(phi)]/l"
     verdict = cart().check(f"D = M + m sin(phi)^2\n{rest}\nx'' = 2 [R + m g sin(phi) cos(phi)]/D")
     assert opened(verdict) == {4}
+
+
+@cache
+def post() -> lg.Derivation:
+    """A post J with a block M at the distance a, along which a puck m slides."""
+    s = lg.System("post")
+    r, phi = s.coordinates("r phi")
+    J, M, m, a = s.parameters("J M m a")
+    s.kinetic(J * phi.diff() ** 2 / 2, name="post")
+    s.particle(M, at=s.point("A", (a * sp.cos(phi), a * sp.sin(phi))), name="block")
+    s.particle(m, at=s.point("P", (r * sp.cos(phi), r * sp.sin(phi))), name="puck")
+    s.torque(s.input("Q"), on=phi, name="motor")
+    return s.derive()
+
+
+@pytest.mark.parametrize("row", ["d/dt[(I + m r^2) phi'] = Q", "(I + m r^2) phi'' + 2 m r r' phi' = Q"])
+def test_a_constant_is_wrong_where_it_is_defined_and_not_in_d_dt_of_it(row: str) -> None:
+    rest = f"\n{row}\nm r'' - m r phi'^2 = 0"
+    assert post().check(f"I = J + M a^2{rest}").right
+    verdict = post().check(f"I = J - M a^2{rest}")
+    assert opened(verdict) == {1}
+    assert first(verdict).startswith("Line 1 is not right: the value of I is") and "reason" not in first(verdict)

@@ -268,13 +268,7 @@ def of_solved(told: Sequence[Mistake]) -> list[Mistake]:
 def without_other_terms(findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Finding, ...]:
     """The findings; where a row is explained as solved for one acceleration alone, or by what multiplies that, no terms
     are told in which it differs from an equation with several: the row is none."""
-    if not (solved := of_solved(told)):
+    if not of_solved(told):
         return tuple(findings)
-    known = {x for m in solved for x in m.what.parts}
-    others = [
-        f.line.kind == "equation"
-        and not f.status.right
-        and (len(f.differences) > 1 or any(known.isdisjoint((d.term, d.written)) for d in f.differences))
-        for f in findings
-    ]
-    return tuple(replace(f, differences=()) if x else f for f, x in zip(findings, others, strict=True))
+    several = [f.line.kind == "equation" and len(f.differences) > 1 and not f.status.right for f in findings]
+    return tuple(replace(f, differences=()) if x else f for f, x in zip(findings, several, strict=True))

@@ -73,8 +73,6 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
         expr = marked.get(id(f))
         if f.status is not Status.WRONG or f.follows or not held or expr is None:
             continue
-        if not f.differences and of_solved(verdict.mistakes):
-            continue  # the row is none of an equation with several accelerations
         alone = _names_only(truth, marks, f.line.number)
         made = [Made(f, d, sp.S.One, *x, alone) for d in f.differences for x in _made_in(held, d, alone)]
         differing[id(f)] = f.differences
@@ -82,7 +80,8 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
             expr, under, differing[id(f)] = _multiplied(truth, marks, expr, f.coordinate)
             held = [p for p in _parts(marks, expr) if any(p.of is q.of for q in held)]
             made = [Made(f, d, under, *x, alone) for d in differing[id(f)] for x in _made_in(held, d, alone)]
-        found += made
+        solved = not f.differences and bool(of_solved(verdict.mistakes))  # no equation with several accelerations
+        found += [x for x in made if not solved or x.term.kind not in ("missing", "extra")]
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
     found = [x for x in found if _fits(x, found, uses) and (x.of.line not in said or _is_entry(x, uses))]
     if not found:
