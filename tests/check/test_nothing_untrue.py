@@ -263,3 +263,42 @@ def test_a_constant_is_wrong_where_it_is_defined_and_not_in_d_dt_of_it(row: str)
     verdict = post().check(f"I = J - M a^2{rest}")
     assert opened(verdict) == {1}
     assert first(verdict).startswith("Line 1 is not right: the value of I is") and "reason" not in first(verdict)
+
+
+@cache
+def swing() -> lg.Derivation:
+    """A bench on two links, on which a crate slides."""
+    s = lg.System("swing")
+    th, u = s.coordinates("th s")
+    M, m, l_, k, g = s.parameters("M m l k g")
+    at = (l_ * sp.sin(th), -l_ * sp.cos(th))
+    s.particle(M, at=s.point("B", at), name="bench")
+    s.particle(m, at=s.point("C", (at[0] + u, at[1])), name="crate")
+    s.spring(k, deflection=u, name="spring")
+    s.gravity((0, -1), g)
+    return s.derive()
+
+
+CHAIN = """from sympy import *
+t, M, m, l, k, g = symbols("t M m l k g")
+th, s = Function("th")(t), Function("s")(t)
+xb, yb = l*sin(th), -l*{}(th)
+xc, yc = xb + s, yb
+T = M*(xb.diff(t)**2 + yb.diff(t)**2)/2 + m*(xc.diff(t)**2 + yc.diff(t)**2)/2
+V = M*g*yb + m*g*yc + k*s**2/2
+L = T - V
+for q in (th, s):
+    print(simplify(L.diff(q.diff(t)).diff(t) - L.diff(q)), "= 0")
+"""
+
+
+def test_a_place_that_is_made_of_a_wrong_one_follows() -> None:
+    assert swing().check(CHAIN.format("cos")).right
+    assert opened(swing().check(CHAIN.format("sin"))) == {4}
+
+
+def test_nothing_is_called_right_beside_terms_of_which_nothing_is_known() -> None:
+    verdict = cart().check(CART.format(before="").replace("k x", "k x + k l phi + M g - m g phi"))
+    said = verdict.to_text()
+    assert any(not d.origins for f in verdict.findings for d in f.differences)
+    assert "Right in line" not in said and "What differs" not in said
