@@ -275,15 +275,18 @@ def _repeats(mistake: Mistake, told: Mistake, row: bool) -> bool:
 
 
 def _right_and_differing(finding: Finding) -> Iterator[Item]:
-    """What is right in a wrong line, by element, and what its differences come from."""
+    """What is right in a wrong line, by element, and what its differences come from; what does not belong there may be
+    of any element."""
     differing = list(dict.fromkeys((o.element, o.step) for d in finding.differences for o in d.origins))
     names = {element for element, _ in differing}
     fine = [e for e in finding.elements if e not in names]
-    if fine and differing:
+    known = all(d.origins for d in finding.differences)
+    if fine and differing and known:
         yield text(f"Right in {finding.line.title}: what comes from {listed([*map(_called, fine)])}.")
     if differing:
         places = [f"{_called(element)}, step {step} ({step_title(step)})" for element, step in differing]
-        yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
+        what = "What differs" if known else "Some of what differs"
+        yield text(f"{what} in {finding.line.title} comes from {'; '.join(places)}.")
 
 
 FORCES_TAKEN = " unknown force"

@@ -228,11 +228,12 @@ class BodiesSaid:
     def _of_their_own(self, said: tuple[SaidWrongly, ...]) -> tuple[SaidWrongly, ...]:
         """Those of several wrong definitions that are not right as soon as the others are which they use.
 
-        So v² = v₁² + v₂² of one of two equal bodies follows from the v₂ above it, that is told of the other.
+        So v² = v₁² + v₂² of one of two equal bodies follows from the v₂ above it, that is told of the other, and in a
+        program, of which the values are put in, yc = yb of another body.
         """
 
         def follows(p: SaidWrongly) -> bool:
-            used = [x for x in said if x is not p and key(x.line.name or "") in p.line.names]
+            used = [x for x in said if x is not p and (key(x.line.name or "") in p.line.names or _is_put_in(x, p))]
             if not used or p.right is None:
                 return False
             expr = p.line.expr
@@ -336,6 +337,12 @@ class BodiesSaid:
                 if np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size and self._differ(chosen):
                     return sorted(said, key=lambda p: p.number)
         return []
+
+
+def _is_put_in(said: SaidWrongly, other: SaidWrongly) -> bool:
+    """Whether what one definition says stands in another one below it."""
+    own = said.line.expr
+    return said.number < other.number and len(own.args) > 1 and other.line.expr.has(own)
 
 
 def _parts(

@@ -28,12 +28,14 @@ def wrong_term_below(truth: Reference, expr: sp.Expr, i: int, ratio: Array) -> t
     """What stands in the one denominator of an equation that is solved for acceleration i, and what belongs there.
 
     ``ratio`` is the right denominator by the written one at every state. Either term may be 0; None if more than one
-    term is wrong.
+    term is wrong. In an equation that is not solved it is what multiplies the acceleration.
     """
+    factor = bounded.diff(expr, truth.model.coordinates[i].acceleration)
     bases = {f.base for f in expr.atoms(sp.Pow) if f.exp == -1 and f.base.is_Add}
     whole = [b for b in bases if not any(x is not b and x.has(b) for x in bases)]
     if not bases:
         whole = list({sp.fraction(x)[1] for x in sp.Add.make_args(expr)} - {sp.S.One})
+    whole = whole if factor.is_number else [factor]
     if len(whole) != 1:
         return None
     below = cast("sp.Expr", bounded.expand(truth.expand(whole[0])))

@@ -19,6 +19,8 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, in_place
 from lagrangian.check.explain.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.explain.search import EXOTIC, SMALL, Explanation, simple_number, singles
+from lagrangian.check.explain.solved import NAME as BELOW
+from lagrangian.check.explain.solved import TERM_NAME as TERM_BELOW
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import Finding, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
@@ -258,10 +260,15 @@ def by_numerators(pool: Pool, exprs: Sequence[sp.Expr]) -> list[tuple[sp.Expr, E
     return found
 
 
+def of_solved(told: Sequence[Mistake]) -> list[Mistake]:
+    """The mistakes in rows that are solved for one acceleration alone, and in what multiplies that."""
+    return [m for m in told if m.what.parts[:1] == (SOLVED,) or m.name in (BELOW, TERM_BELOW)]
+
+
 def without_other_terms(findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Finding, ...]:
-    """The findings; where a row is explained as solved for one acceleration alone, no terms are told in which it
-    differs from an equation with several: the row is none."""
-    if not any(m.what.parts[:1] == (SOLVED,) for m in told):
+    """The findings; where a row is explained as solved for one acceleration alone, or by what multiplies that, no terms
+    are told in which it differs from an equation with several: the row is none."""
+    if not of_solved(told):
         return tuple(findings)
     several = [f.line.kind == "equation" and len(f.differences) > 1 and not f.status.right for f in findings]
     return tuple(replace(f, differences=()) if x else f for f, x in zip(findings, several, strict=True))

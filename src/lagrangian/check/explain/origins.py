@@ -22,7 +22,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.difference import differences
 from lagrangian.check.explain.in_own_names import OwnName, own_names, with_names
-from lagrangian.check.explain.numerators import multiplied
+from lagrangian.check.explain.numerators import multiplied, of_solved
 from lagrangian.check.explain.origins_said import Made, with_made
 from lagrangian.check.reading.marked_values import MarkedValue, ValueMarks
 from lagrangian.check.reference import Reference
@@ -80,7 +80,8 @@ def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: S
             expr, under, differing[id(f)] = _multiplied(truth, marks, expr, f.coordinate)
             held = [p for p in _parts(marks, expr) if any(p.of is q.of for q in held)]
             made = [Made(f, d, under, *x, alone) for d in differing[id(f)] for x in _made_in(held, d, alone)]
-        found += made
+        solved = not f.differences and bool(of_solved(verdict.mistakes))  # no equation with several accelerations
+        found += [x for x in made if not solved or x.term.kind not in ("missing", "extra")]
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
     found = [x for x in found if _fits(x, found, uses) and (x.of.line not in said or _is_entry(x, uses))]
     if not found:

@@ -6,6 +6,7 @@ without its definition, and judged with the right quantity in its place.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias, cast
@@ -40,6 +41,8 @@ from lagrangian.errors import ParseError
 from lagrangian.model import time
 from lagrangian.read.letters import key
 
+_OF_A_LINE = re.compile(r"\bequations?\b|\b[Ll]ine \d")
+"""What words say of a line in which something is wrong."""
 MOST_NAMES = 3
 """The most definitions that are left out in turn."""
 MOST_VALUES = 8
@@ -279,7 +282,9 @@ def _blamed(
         (m for m in same if m.name == said.mistake.name), said.mistake
     )  # of an energy, in which no sense shows
     told = tuple(m for m in told if not any(m is x for x in same))
-    if reason is not None:
+    if reason is not None and _OF_A_LINE.search(str(reason.what)):
+        first = replace(first, step=reason.step, element=reason.element)  # the line is right as it is written
+    elif reason is not None:
         first = replace(with_reason(first.what, reason), name=first.name, brief=first.brief)
     return replace(verdict, findings=findings, mistakes=(first, *told), alternatives=(), sure=True)
 

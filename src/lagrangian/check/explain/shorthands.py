@@ -64,7 +64,8 @@ def right_values(
     """The values of a shorthand ``line`` with which the ``first`` wrong line, that has its ``symbol``, may be right."""
     power = 2 if line.of_square else 1
     of = line.of_function(symbol)
-    found = _linear(truth, first, cast("sp.Expr", of**power), symbol)
+    still = not _is_moving_product(truth, line.expr)
+    found = _linear(truth, first, cast("sp.Expr", of**power), symbol, still=still)
     if found is None:
         return
     values, (slope, rest) = [*_slips(truth, line.expr)], found
@@ -81,14 +82,22 @@ def right_values(
             yield INVERSE[of.func](put) if of.func in INVERSE else put, [_said(truth, line, value)]
 
 
-def _linear(truth: Reference, line: AnsweredLine, of: sp.Expr, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    """The slope of left minus right by a symbol or its square, and the rest; None if it is not linear in it."""
+def _linear(
+    truth: Reference, line: AnsweredLine, of: sp.Expr, symbol: sp.Expr, *, still: bool
+) -> tuple[sp.Expr, sp.Expr] | None:
+    """The slope of left minus right by a symbol or its square, and the rest; None if it is not linear in it.
+
+    ``still``: it is constant, so that d/dt[(I + m s²) θ̇] has no rate of it.
+    """
     expr = line.expr
     if line.kind != "equation":
         right = right_value(truth, line, index_of(truth, line.name))
         if right is None:
             return None
         expr = cast("sp.Expr", expr - right)
+    if still:
+        rates = (d for d in expr.atoms(sp.Derivative) if isinstance(d, sp.Derivative) and d.expr == symbol)
+        expr = cast("sp.Expr", expr.xreplace(dict.fromkeys(rates, sp.S.Zero)))
     mark = sp.Dummy()
     put = cast("sp.Expr", expr.xreplace({of: mark}))
     slope = bounded.diff(put, mark)

@@ -7,6 +7,7 @@ the span of P at every place: with the projection N that removes this span, N Δ
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -26,7 +27,19 @@ from lagrangian.page.formula import Text, text
 NAME, TERM_NAME = "denominator", "denominator_term"
 """The names of a mistake in a denominator, and of one of which the term is known."""
 _DENOMINATOR = " is right; the denominator is not."
+_FACTOR, _IS_NOT = (
+    "All other terms are right; what multiplies ",
+    ", once the other accelerations are eliminated, is not.",
+)
+"""How words on a line begin and end that is not solved for its acceleration: no fraction stands in it."""
+IN_IT = " In it, "
+"""What stands before its wrong term."""
+_SOLVED = "What is solved for "
+"""How words begin that give a number."""
 WHY_BELOW = text("The denominator is what multiplies the acceleration once the others are eliminated: do it once more.")
+WHY_FACTOR = text(
+    "What moves along has inertia, too: go through what is put in for the other accelerations, and forces."
+)
 WHY = text("With M ξ̈ = h, ξ̈ = adj(M) h / det M: every acceleration has the same denominator, det M.")
 
 
@@ -97,27 +110,39 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
     wrong = [i for i, r in ratios.items() if np.abs(r - 1).max() > CONSTANT]
     if len(set(own)) < len(exprs) or not wrong:
         return None
-    common = len(wrong) == truth.n > 1 and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
-    name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None
+    rows = {i: exprs[own.index(i)] for i in wrong}
     symbols = [x for i in wrong for x in (cast("sp.Expr", accelerations[i]), ", ")][:-1]
-    brief = text("A denominator of a solved equation is not right.")
+    common = len(wrong) == truth.n > 1 and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
     words = _words(symbols, ratios[wrong[0]], common=common)
-    if len(wrong) == 1 and words.parts[-1] == _DENOMINATOR:
+    name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None
+    brief = text("A denominator of a solved equation is not right.")
+    told = Mistake(NAME, words, WHY, 5, None, name, brief)
+    if words.parts[0] == _SOLVED:
+        return None if truth.n == 1 else told
+    if not any(_is_solved(e, accelerations[i]) for i, e in rows.items()):
+        what, brief = text(_FACTOR, *symbols, _IS_NOT), text("What multiplies an acceleration is not right.")
+        told = replace(told, what=what, why=WHY_FACTOR, brief=brief)
+    if len(wrong) == 1:
         with np.errstate(all="ignore"):
-            pair = wrong_term_below(truth, exprs[own.index(wrong[0])], wrong[0], ratios[wrong[0]])
+            pair = wrong_term_below(truth, rows[wrong[0]], wrong[0], ratios[wrong[0]])
         if pair is not None and pair[0] != pair[1]:
             one = 0 in pair or pair[0] == -pair[1]
             first, *more = term_replaced(*pair)[1].parts if one else ("", pair[0], " should be ", pair[1], ".")
-            words = text(*words.parts[:-1], f"{_DENOMINATOR} In it, {str(first)[:1].lower()}{str(first)[1:]}", *more)
-            return Mistake(TERM_NAME, words, WHY_BELOW, 5, None, name, brief)
-    return None if truth.n == 1 else Mistake(NAME, words, WHY, 5, None, name, brief)
+            what = text(*told.what.parts, f"{IN_IT}{str(first)[:1].lower()}{str(first)[1:]}", *more)
+            return replace(told, name=TERM_NAME, what=what, why=WHY_BELOW if told.why is WHY else told.why)
+    return None if truth.n == 1 else told
+
+
+def _is_solved(expr: sp.Expr, acceleration: sp.Expr) -> bool:
+    """Whether an equation is solved for an acceleration, so that what belongs before it stands in a denominator."""
+    return bool(bounded.diff(expr, acceleration).is_number)
 
 
 def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> Text:
     number = simple_number(float(ratio[0])) if np.ptp(ratio) <= CONSTANT * np.abs(ratio).max() else None
     if number is not None:
         times = sp.Rational(number.numerator, number.denominator)
-        return text("What is solved for ", *symbols, " is ", times, " times what it should be.")
+        return text(_SOLVED, *symbols, " is ", times, " times what it should be.")
     if common:
         return text("The numerators are right; the common denominator, the determinant of the mass matrix, is not.")
     return text("The numerator of ", *symbols, _DENOMINATOR)

@@ -88,6 +88,19 @@ def balances_of(truth: Reference, lines: Sequence[AnsweredLine], *, few: bool = 
     return Balances(rows, tuple(forces), A, values[len(slopes) :].T)
 
 
+def used_elsewhere(balances: Balances, said: sp.Expr | None) -> Balances:
+    """The lines without those that only say what a force is which no other line has, a_r = s̈ + s φ̇²: nothing in the
+    answer says whether it is that. What is ``said`` to be wrong may be that another line lacks it."""
+    held: Array = np.any(balances.A, axis=0)
+    rows, forces = (list(range(n)) for n in held.shape)
+    known = {j for j in forces if said is not None and said.has(balances.forces[j])}
+    while alone := [j for j in forces if j not in known and held[rows, j].sum() < 2]:
+        rows = [k for k in rows if not held[k, alone].any()]
+        forces = [j for j in forces if j not in alone]
+    lines, names = tuple(balances.lines[k] for k in rows), tuple(balances.forces[j] for j in forces)
+    return Balances(lines, names, balances.A[:, rows][:, :, forces], balances.b[:, rows])
+
+
 def left_out(balances: Balances) -> list[int]:
     """The places of the lines without which all others hold; none if all hold together."""
     every = list(range(len(balances.lines)))

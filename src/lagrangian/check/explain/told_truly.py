@@ -10,19 +10,28 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.explain.certain_first import with_certain_terms
+from lagrangian.check.explain.certain_first import MOST, with_certain_terms
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
+from lagrangian.check.explain.second_choices import (
+    MADE_IN,
+    SECOND,
+    STATED,
+    is_of_what_is_there,
+    is_stated,
+    right_notes,
+)
 from lagrangian.check.explain.spoken import in_lagrangian
-from lagrangian.check.explain.term_said import parted
+from lagrangian.check.explain.term_said import REASON, parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
 from lagrangian.check.terms.pieces import partner
-from lagrangian.check.verdict import IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import DERIVED, IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
 
@@ -45,8 +54,15 @@ OF_LETTERS = (
 """Names of mistakes in the powers of letters and rates."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 WHY_DOUBLE_V = text("V has the square of a whole deflection, and (a − b)² has the double product −2 a b, too.")
+WHY_DERIVED = text("Differentiate it once more, term by term, with the inner derivatives.")
 MADE_IN_STEPS = {2: ("T", "kinetic"), 3: ("V", "potential")}
 """The kind of the line that states what is made in a step, and which energies its parts are."""
+ARMS = ("force_arm", "damper_arm", "gravity_arm")
+"""Names of mistakes in what multiplies a force that is there."""
+STANDS, WRONG_SIGN = " stands once", " has the wrong sign"
+"""What is said of what is there."""
+SAID = ("definition", "identity")
+"""Lines that say what a quantity is."""
 NOT = ", not "
 """What stands between what is right and what is written."""
 BESIDE = (NOT, " is not ", " should be ", " stands where ")
@@ -57,6 +73,10 @@ _BLAMES = re.compile(r"(?:Line|In line) (?P<number>\d+)\b")
 """How words begin that blame a line."""
 _OF_ENERGY = re.compile(r"\b(?:in V|energy|height|position)\b")
 """What words on V say, and words on an equation do not."""
+_OF_AN_ENERGY = re.compile(r"\b(?:[Ii]n|of) (?:the )?(?:V|T\*|ℒ|(?:kinetic |potential )?energy)\b|\bof the height\b")
+"""What words say that speak of a mistake in an energy."""
+_IN_A_DERIVATIVE = re.compile(r"∂|d/dt|\bequations?\b|\b[Ll]ine \d")
+"""What words say on a derivative of it, or on a line."""
 _TAKEN = re.compile(r"The (?P<what>[^:,.]{1,60} of [^:,]{1,60}'[^']{1,60}') (?:is|are) taken as ")
 """How words begin that blame a quantity."""
 
@@ -70,12 +90,13 @@ def told_truly(verdict: Verdict) -> Verdict:
 
 def _unrefuted(verdict: Verdict) -> Verdict:
     """The verdict with mistakes that its lines do not refute, each once."""
-    mistakes = [_of_lagrangian(_without_refuted_reason(m, verdict), verdict) for m in verdict.mistakes]
+    mistakes = [_of_lagrangian(_without_refuted_reasons(m, verdict), verdict) for m in verdict.mistakes]
     refuted = [_is_refuted(m, verdict) for m in mistakes]
+    possible = tuple(m for m in verdict.alternatives if not _is_refuted(m, verdict))
     if not any(refuted):
-        return replace(verdict, mistakes=tuple(_once(mistakes, verdict)))
+        return replace(verdict, mistakes=tuple(_once(mistakes, verdict)), alternatives=possible)
     either = set((mistakes[0].element or "").split(EITHER)) if EITHER in (mistakes[0].element or "") else set[str]()
-    others = [m for m in verdict.alternatives if not _is_refuted(m, verdict) and m.element not in either]
+    others = [m for m in possible if m.element not in either]
     kept: list[Mistake] = []
     for k, (m, false) in enumerate(zip(mistakes, refuted, strict=True)):
         if not false:
@@ -83,7 +104,8 @@ def _unrefuted(verdict: Verdict) -> Verdict:
         elif k == 0 and others:
             kept.append(others[0])
         else:
-            kept += [replace(x, why=WHY_DOUBLE_V) if _is_there(m, verdict) else x for x in _terms_of(m, verdict)]
+            why = WHY_DOUBLE_V if _is_there(m, verdict) else m.why if m.name in ARMS else None
+            kept += [x if why is None else replace(x, why=why) for x in _terms_of(m, verdict)]
     told = tuple(_once(kept, verdict))
     texts = {str(m.what) for m in told}
     return replace(verdict, mistakes=told, alternatives=tuple(m for m in others if str(m.what) not in texts))
@@ -139,7 +161,7 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
         and len(_differing(mistake, verdict)) <= MOST_TOLD
     ):
         return True  # which of several equal bodies moves otherwise than the others is written nowhere
-    return _is_of_right_quantity(said, verdict) or (is_of_what_is_there(mistake) and _only_lacks(mistake, verdict))
+    return parted(mistake) is None and _is_refuted_reason(mistake, verdict)
 
 
 def _says_nothing(mistake: Mistake) -> bool:
@@ -226,11 +248,72 @@ def _is_of_right_quantity(said: str, verdict: Verdict) -> bool:
     return taken is not None and f"the {taken['what']}" in notes
 
 
-def _without_refuted_reason(mistake: Mistake, verdict: Verdict) -> Mistake:
-    """A mistake without a reason that the lines refute: the term is certain, the reason is not."""
-    said = parted(mistake)
-    refuted = said is not None and _is_of_right_quantity(str(said[1]), verdict)
-    return replace(mistake, what=said[0]) if said is not None and refuted else mistake
+def _without_refuted_reasons(mistake: Mistake, verdict: Verdict) -> Mistake:
+    """A mistake without the possible reasons that the lines refute: the term is certain, the reasons are not."""
+    if (said := parted(mistake)) is None:
+        return mistake
+    certain, reason = said
+    reasons: list[list[Any]] = [[]]
+    for x in reason.parts:
+        if x == SECOND:
+            reasons.append([])
+        else:
+            reasons[-1].append(x)
+    kept = [x for x in reasons if not _is_refuted_reason(replace(mistake, what=text(*x)), verdict)]
+    if len(kept) == len(reasons):
+        return mistake
+    behind = [x for parts in kept for x in (SECOND, *parts)]
+    return replace(mistake, what=text(*certain.parts, REASON, *behind[1:]) if behind else certain)
+
+
+def _is_refuted_reason(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether the lines of an answer speak against words that are a reason, or the whole mistake."""
+    said = str(mistake.what)
+    if _is_of_right_quantity(said, verdict) or _is_of_right_sign(mistake, verdict):
+        return True
+    claims = STANDS in said or mistake.name in ARMS or is_of_what_is_there(mistake)
+    return (claims and _only_lacks(mistake, verdict)) or _is_of_right_energy(mistake, verdict)
+
+
+def _is_of_right_sign(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether the sign of a piece of a velocity or of a way is said to be wrong that has one sign in all lines, and in
+    a right one."""
+    parts = mistake.what.parts
+    pairs = pairwise(parts)
+    pieces = [x for x, behind in pairs if isinstance(x, sp.Expr) and str(behind).startswith(WRONG_SIGN)]
+    if len(pieces) != 1 or MADE_IN.match(str(mistake.what)) is None:
+        return False
+    (piece,) = pieces
+    every = {x for f in verdict.findings for x in _summands(f)}
+    right = {x for f in verdict.findings if f.status.right and f.line.kind in SAID for x in _summands(f)}
+    return (piece in right and -piece not in every) or (-piece in right and piece not in every)
+
+
+def _summands(finding: Finding) -> Iterator[sp.Expr]:
+    """The terms of a line, and those of the sums in it."""
+    if finding.line.sides is not None and finding.line.kind == "identity":
+        yield from sp.Add.make_args(finding.line.sides[1])  # type: ignore[misc]
+    for ways in finding.line.summands[:MOST]:
+        for factors in ways:
+            yield sp.Mul(*factors)
+            yield from (x for y in factors for z in y.atoms(sp.Add) for x in z.args)  # type: ignore[misc]
+
+
+def _is_of_right_energy(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a mistake is said to be in an energy that has all terms of its element, where the equations have not."""
+    said = str(mistake.what)
+    kinds = STATED.get(mistake.step)
+    if kinds is None or mistake.element is None or _OF_AN_ENERGY.search(said) is None or _IN_A_DERIVATIVE.search(said):
+        return False
+    stated = [f for f in verdict.findings if f.line.kind in kinds]
+    part = MADE_IN_STEPS[mistake.step][1]
+    if not stated:
+        return any(x.endswith(f"{part} energy of {mistake.element}") for x in right_notes(verdict))
+    origins = [(f, [o for d in f.differences for o in d.origins]) for f in stated if not f.status.right]
+    return all(
+        f.differences and all(d.origins for d in f.differences) and mistake.element not in {o.element for o in own}
+        for f, own in origins
+    )
 
 
 def _only_lacks(mistake: Mistake, verdict: Verdict) -> bool:
@@ -251,6 +334,10 @@ def _differing(mistake: Mistake, verdict: Verdict) -> list[tuple[Finding, TermDi
 def _terms_of(mistake: Mistake, verdict: Verdict) -> list[Mistake]:
     """The terms that differ where a mistake was said to be, or what is certain of them if they are many."""
     terms = _differing(mistake, verdict) or _differing(replace(mistake, element=None), verdict)
+    rows = [f.line.title for f in verdict.open_findings if f.line.kind in ("equation", "slope", *DERIVED)]
+    if not terms and rows and _is_of_right_energy(mistake, verdict):
+        said = f"The energy of {mistake.element} is right; what it adds to {' and '.join(rows)} is not."
+        return [replace(mistake, name="terms_alone", what=text(said), why=WHY_DERIVED, step=5, brief=text(said))]
     if len(terms) <= MOST_TOLD:
         return [_term(f, d) for f, d in terms]
     titles = " and ".join(dict.fromkeys(f.line.title for f, _ in terms))

@@ -10,14 +10,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import sympy as sp
+
 from lagrangian.check.explain.after_own_rates import slip_in_own_rate
 from lagrangian.check.explain.quoted import LINE, letters_in
 from lagrangian.check.explain.terms_alone import LEFT_OVER, MOST_TOLD, term_mistake
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import DERIVED, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.page.formula import text
 
 KINDS = ("p", *DERIVED)
 """The lines that are compared term by term with what belongs there."""
+MOST_COLUMN = 3
+"""The most terms that are told in the rates of a column."""
 BLAMES = "Line "
 """How words begin on a definition, of which more may follow than is found."""
 
@@ -76,7 +83,36 @@ def _with_rates(truth: Reference, verdict: Verdict) -> Verdict:
         if len(numbers) == len(told) and (slip := slip_in_own_rate(truth, f.line)) is not None:
             told.insert(0, slip)
             break
-    return replace(verdict, mistakes=tuple(told))
+    return _with_columns(truth, replace(verdict, mistakes=tuple(told)))
+
+
+def _with_columns(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict with the terms that are wrong in the rates of a column, d/dt r = (…), in place of the square of the
+    speed that follows from them."""
+    first = verdict.mistakes[0]
+    blamed = _of_line(verdict, first)
+    if blamed is None or blamed.line.kind != "definition" or first.element is None:
+        return verdict
+    rates = [f for f in verdict.findings if f.line.kind == "identity" and f.line.name is None and f.line.sides]
+    for number in dict.fromkeys(f.line.number for f in rates if f.is_open and f.line.number < blamed.line.number):
+        column = [f for f in rates if f.line.number == number]
+        wrong = [(f, d) for f in column for d in f.differences]
+        square = sp.Add(*(f.line.sides[1] ** 2 for f in column if f.line.sides is not None))
+        right = 0 < len(wrong) <= MOST_COLUMN and all(f.differences for f in column if f.is_open)
+        if right and zero_everywhere(truth, truth.put(truth.expand(square - blamed.line.expr))):
+            said = [x for f, d in wrong for x in (", and ", *differs(on_side(f.line, d)[1]))][1:]
+            what = text(f"In {wrong[0][0].line.title}, ", *said, ".")
+            told = replace(first, name="term_alone", what=what)
+            findings = tuple(replace(f, follows=True) if f is blamed else f for f in verdict.findings)
+            return replace(verdict, findings=findings, mistakes=(told, *verdict.mistakes[1:]))
+    return verdict
+
+
+def _of_line(verdict: Verdict, mistake: Mistake) -> Finding | None:
+    """The wrong line that the words of a mistake name first."""
+    named = LINE.match(str(mistake.what))
+    number = int(named["number"]) if named is not None else 0
+    return next((f for f in verdict.open_findings if f.line.number == number), None)
 
 
 def _speaks_of(mistake: Mistake, finding: Finding, difference: TermDifference) -> bool:

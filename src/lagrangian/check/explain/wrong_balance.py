@@ -32,6 +32,7 @@ from lagrangian.check.explain.solved_forces import (
     left_out,
     place_of,
     primes_as_names,
+    used_elsewhere,
     without_derived,
 )
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
@@ -112,13 +113,14 @@ def with_wrong_balance(
     below += [x for x in false if x is not line]
     holds = np.any([hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
-    right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
+    used = used_elsewhere(balances, None if solved.term is None else solved.term.term)
+    right = [x for x in (*used.lines, *later) if x is not line and x not in false]
     roots = {place_of(f.line) for f in verdict.open_findings}
     theirs = solved.known is not None or (solved.term is not None and solved.term.term.has(*balances.forces))
     plain &= theirs or k is None or k in parts or on is not truth
     if verdict.mistakes and roots == {place_of(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
-    notes = (*(x for x in verdict.notes if not _is_of(x, balances)), _read(balances.forces))
+    notes = (*(x for x in verdict.notes if not _is_of(x, used)), *([_read(used.forces)] if used.forces else []))
     findings = marked(verdict.findings, right, [blamed], follow)
     why = None if solved.known is None else solved.known.why
     mistake = _mistake(blamed, WHY_SOLVED if k is None else why or WHY)

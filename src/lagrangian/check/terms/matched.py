@@ -165,8 +165,10 @@ def _multiples(items: Sequence[TermItem]) -> list[list[TermItem]]:
 def _odd_one(own: Sequence[TermItem], right: Sequence[TermItem]) -> PieceMatch:
     """Of several multiples of the same that should add up to ``right``, the one with the simplest number too much or
     too little: of 1/8 + 1/48 in place of 1/6 it is 1/48, which should be 1/24."""
-    total = sp.Add(*[x.piece.expr for x in right], *[-x.piece.expr for x in own])
-    numbers = [cast("sp.Rational", sp.cancel(total / x.piece.expr) + 1) for x in own]
+    base = own[0].form  # M sin 2α and M sin α cos α are multiples as forms, not as they are written
+    theirs, mine = ([cast("sp.Rational", number_between(x.form, base)) for x in items] for items in (right, own))
+    total = sp.Add(*theirs) - sp.Add(*mine)
+    numbers = [cast("sp.Rational", total / n + 1) for n in mine]
     k = min(range(len(own)), key=lambda j: abs(numbers[j].p) + numbers[j].q)
     one = own[k]
     if numbers[k] == 0:

@@ -28,6 +28,8 @@ from lagrangian.read.letters import key
 LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
 _ACCELERATION = re.compile(r"\w(?:dd|ddot)\b")
 """An acceleration as programs call it."""
+_WRITTEN_OUT = re.compile(r"\w[ ]?[-+−*/·(]|\b(?:sin|cos|sqrt|frac)|\d[ ]?[A-Za-z]")
+"""What a side has that is more than a name."""
 
 
 def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDifference]:
@@ -40,6 +42,8 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
     left, right = line.sides
     here, there = (_terms(side) for side in line.sides)
+    if difference.kind == "extra" and _is_put_in(line) and difference.written in here - there:
+        return "", replace(difference, kind="missing", written=sp.S.Zero)
     if difference.written != 0:
         own, turned = _terms(difference.written), _terms(-difference.written)
         stands = own <= here, turned <= there
@@ -63,6 +67,12 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
         return LEFT, difference
     rates = left.has(sp.Derivative)
     return ("", difference) if rates and _accelerates(difference.term, difference.coordinate) else flipped
+
+
+def _is_put_in(line: AnsweredLine) -> bool:
+    """Whether the left side of a line is the derivative of what a name is, and was not written: d/dt r = (…)."""
+    left = line.text.partition("=")[0].removeprefix("d/dt").strip()
+    return line.kind == "identity" and "d/d" not in left and _WRITTEN_OUT.search(left) is None
 
 
 def differs(d: TermDifference) -> tuple[str | Left, ...]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import sympy as sp
-
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 5
-WHY = text("Everything that is carried along must be accelerated too: add all masses that move with this coordinate.")
+WHY = text(
+    "Everything that is carried along must be accelerated too: add all masses, and of bodies that turn the moments of "
+    "inertia, that move with this coordinate."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -28,8 +29,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 ", which moves it.",
             )
             yield Variant(what=what, T=-energy, only=frozenset({i}), element=body, coordinate=i)
-            own = sp.Add(*s.coupling(body, i, i)) * s.a[i]
-            lacking = text(f"The mass of {body.title} is missing before ", s.a[i], ".")
+            translation, rotation = s.coupling(body, i, i)
+            own = (translation + rotation) * s.a[i]
+            inertia = "mass" if rotation == 0 else "moment of inertia" if translation == 0 else "inertia"
+            lacking = text(f"The {inertia} of {body.title} is missing before ", s.a[i], ".")
             yield Variant(what=lacking, rows={i: -own}, element=body, coordinate=i, stated=frozenset())
             if weight != 0:
                 yield Variant(what=what, T=-energy, V=-weight, only=frozenset({i}), element=body, coordinate=i)

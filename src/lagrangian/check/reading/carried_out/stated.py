@@ -146,7 +146,11 @@ def carried_out(text: str, model: Model, marks: ValueMarks | None = None, *, ope
     meant = list(_renamed(of_symbols | said | run.renamed, found, scope))
     meant += _assigned(in_own_coordinates(run, found, model, scope))
     motion = [*meant, *(x for x in found if _accelerates(x[1], twice))]
-    found = [*meant, *_assigned(ways(run, MovingNames(model, scope), partial(_is_place_of_system, scope))), *found]
+    found = [
+        *meant,
+        *_assigned(ways(run, MovingNames(model, scope), model, partial(_is_place_of_system, scope))),
+        *found,
+    ]
     lines = text.split("\n")
     comments = _comments(lines, twice, foreign)
     bare, motion_alone = (_laid_out([""] * len(lines), x) for x in (found, motion))

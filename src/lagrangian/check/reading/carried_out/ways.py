@@ -1,6 +1,7 @@
 """Places and velocities of bodies that a program assigns to names of its own, from which it makes its energies.
 
 X2 = l*sin(al) + l/2*sin(al)        X2 = 3*l*sin(al)/2          p = [x + l*sin(phi); h]         p = [x + l*sin(phi), h]
+crate = Matrix([x + s*cos(th), …])  as p, where a body of the system is called so
 
 What is carried out has these names no more; they only say where a mistake in an energy was made.
 """
@@ -27,20 +28,28 @@ LONGEST = 60
 """The largest number of operations of such a value."""
 _NAME = re.compile(r"(?:[xyzrph]|v(?!\d?$)|vel|pos)[a-z]{0,8}_?[a-z\d]{0,12}", re.IGNORECASE)
 """Names of places, and of velocities with an index."""
+_WORD = re.compile(r"[^\W\d_]{3,30}")
 
 
-def ways(run: Evaluator, moving: MovingNames, taken: Callable[[str], bool]) -> Iterator[tuple[int, str, list[sp.Expr]]]:
+def ways(
+    run: Evaluator, moving: MovingNames, model: Model, taken: Callable[[str], bool]
+) -> Iterator[tuple[int, str, list[sp.Expr]]]:
     """The line, the name and the value, or the entries, of each; ``taken`` says whether a name is one of the system."""
     last = {one.name: one for one in run.stated}
     once = [one for one in run.stated if one.name is not None and last[one.name] is one]
-    found = [x for one in once if (x := _way(run, moving, one)) is not None and not taken(one.name or "")]
+    bodies = frozenset(word.lower() for b in model.bodies for word in _WORD.findall(b.name))
+    found = [x for one in once if (x := _way(run, moving, one, bodies)) is not None and not taken(one.name or "")]
     yield from found[:MOST]
 
 
-def _way(run: Evaluator, moving: MovingNames, one: Shown) -> tuple[int, str, list[sp.Expr]] | None:
+def _way(
+    run: Evaluator, moving: MovingNames, one: Shown, bodies: frozenset[str]
+) -> tuple[int, str, list[sp.Expr]] | None:
+    """What a name says that is one of a place or a velocity or, of a column, of one of the ``bodies``."""
     name, value = one.name or "", one.value
     listed = value.flat() if isinstance(value, MatrixBase) else [value]
-    if name not in run.used or _NAME.fullmatch(name) is None or any(spelled_rates(name)) or len(listed) > 3:
+    called = _NAME.fullmatch(name) is not None or (len(listed) > 1 and not bodies.isdisjoint(name.lower().split("_")))
+    if name not in run.used or not called or any(spelled_rates(name)) or len(listed) > 3:
         return None
     if isinstance(value, MatrixBase) and (1 not in value.shape or len(listed) == 1):
         return None
