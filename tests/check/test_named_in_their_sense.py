@@ -246,3 +246,36 @@ def test_where_no_rate_of_a_prescribed_motion_is_written_none_is_called_wrong(hu
     (mistake,) = verdict.mistakes
     assert str(mistake.what) == "What the prescribed motion adds to the equations has the wrong sign."
     assert "second derivative" in str(mistake.why)
+
+
+def test_a_whole_factor_is_missing_and_no_letter_of_it_left_out() -> None:
+    """A roller in a round gutter turns by (R − r)/r for each unit of φ, by hand; ratios that keep a letter are sums."""
+    s = lg.System("roller")
+    phi = s.coordinate("phi")
+    m, J, R, r, b, g = s.parameters("m J R r b g")
+    turn = (R - r) / r * phi.diff(time)
+    s.kinetic(m * (R - r) ** 2 * phi.diff(time) ** 2 / 2, name="centre")
+    s.kinetic(J * turn**2 / 2, name="turning")
+    s.potential(-m * g * (R - r) * sp.cos(phi), name="weight")
+    s.damper(b, deflection=(R - r) / r * phi, name="drag")
+    roller = s.derive()
+    right = "m (R - r)^2 phi'' + J (R - r)^2/r^2 phi'' + m g (R - r) sin(phi) = -b (R - r)^2/r^2 phi'"
+    assert roller.check(right).right
+    for lost in ("J (R - r)^2/r^2", "b (R - r)^2/r^2"):
+        said = told(roller, right.replace(lost, lost[0]))
+        assert "the factor (R - r)^2/r^2 is missing" in said.replace("(-R + r)", "(R - r)"), said
+    said = told(roller, right.replace("m g (R - r)", "m g R"))
+    assert "the factor" not in said, said
+
+
+def test_a_rate_in_a_sum_is_left_out_and_no_factor() -> None:
+    s = lg.System("two discs")
+    theta, psi = s.coordinates("theta psi")
+    I, J, k = s.parameters("I J k")
+    s.kinetic(I * theta.diff(time) ** 2 / 2, name="first")
+    s.kinetic(J * (theta.diff(time) + psi.diff(time)) ** 2 / 2, name="second")
+    s.spring(k, deflection=psi, name="shaft")
+    discs = s.derive()
+    assert discs.check("I theta'' + J (theta'' + psi'') = 0\nJ (theta'' + psi'') + k psi = 0").right
+    said = told(discs, "I theta'' = 0\nJ psi'' + k psi = 0")
+    assert "factor" not in said and ("theta' is left out" in said or "in place of psi' + theta'" in said), said

@@ -264,6 +264,7 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
             why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER
         why = WHY_PRODUCTS if site.step == 2 and str(site.words[0]).startswith("the products") else why
     why = why_omega(change.right) if change.kind == "omega" else why
+    why = VELOCITY if change.kind == "left_out_of_a_sum" and isinstance(change.right, sp.Derivative) else why
     if why == MEASURE and isinstance(site.element, Spring):
         why = DEFLECTION
     if why == UNITS and _has_no_unit(change):

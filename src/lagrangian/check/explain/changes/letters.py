@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site
-from lagrangian.check.explain.changes.ring import Monomial, Sum, TooLong, exponent, minus, put, raised, scaled
+from lagrangian.check.explain.changes.ring import Monomial, Sum, TooLong, exponent, minus, plus, put, raised, scaled
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import partner
 from lagrangian.model import Damper
@@ -21,6 +21,8 @@ from lagrangian.values.dimensions import LENGTH
 
 MOST_ANGLES = 10
 """The largest number of angles that are tried in place of another."""
+FEWEST_GONE = 2
+"""The fewest letters of a factor that is gone as a whole."""
 RATE = 1.2
 """What it costs more to leave out a letter without which a whole rate is gone: that rate is what was left out."""
 
@@ -73,8 +75,8 @@ class LetterChanges:
                     kind="factor_missing", cost=cost + site.surcharge, site=site, effect=effect, written=ratio
                 )
                 continue
-            if kind == "lost" and 0 in exponents:
-                kind = "lost_in_a_sum"
+            if kind == "lost" and 0 in exponents:  # without a rate, a sum of rates has it nowhere
+                kind = "left_out_of_a_sum" if isinstance(right, sp.Derivative) else "lost_in_a_sum"
             times = exponents - {0} if kind.startswith("lost") else set[int]()
             yield LocalChange(
                 kind=kind,
@@ -88,7 +90,10 @@ class LetterChanges:
         if 0 in exponents and isinstance(right, sp.Symbol) and not self._is_of_one_ledger(site, atom):
             for number, kind, cost in ((0, "left_out_of_a_sum", 1.5), (-1, "sign_in_a_sum", 1.7)):
                 effect = self._put(site, atom, number - 1, scaled({((atom, 1),): Fraction(1)}, number))
-                if effect is not None:
+                if effect is not None and number == 0 and (gone := self._factor_gone(site, effect)) is not None:
+                    more = cost + site.surcharge
+                    yield LocalChange(kind="factor_missing", cost=more, site=site, effect=effect, written=gone)
+                elif effect is not None:
                     one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
                     more = cost + one + site.surcharge + (RATE if number == 0 and self._holds_rate(site, atom) else 0.0)
                     yield LocalChange(kind=kind, cost=more, site=site, effect=effect, right=right)
@@ -105,6 +110,23 @@ class LetterChanges:
             return None
         times = {a for a, _ in pairs}
         return (self.ring.atoms[atom] / other) ** min(times, key=abs) if len(times) == 1 else None
+
+    def _factor_gone(self, site: Site, effect: Site) -> sp.Expr | None:
+        """The whole factor, (R − r)²/r², that goes with one letter of it; None if what is left has letters of it."""
+        gone: set[sp.Expr] = set()
+        for whole, change in zip(site.sums(), effect.sums(), strict=True):
+            if not whole:
+                continue
+            left = plus(whole, change)
+            vanished = {k for m in whole for k, _ in m} - {k for m in left for k, _ in m}
+            letters = {x for k in vanished if isinstance(x := self.ring.atoms[k], sp.Symbol)}
+            if not left or len(letters) < FEWEST_GONE or len(letters) < len(vanished):
+                return None
+            ratio = bounded.cancel(self.ring.expr(whole) / self.ring.expr(left))
+            if not ratio.free_symbols or not ratio.free_symbols <= letters or ratio.atoms(AppliedUndef):
+                return None
+            gone.add(bounded.factored(ratio) or ratio)
+        return gone.pop() if len(gone) == 1 else None
 
     def _is_of_one_ledger(self, site: Site, atom: int) -> bool:
         """Whether all of V, of T* or of Ξ has a letter and nothing else: without g, a kinetic energy and a weight are
