@@ -32,6 +32,7 @@ from lagrangian.check.explain.parts_of_energies import without_added
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.same_residuals import with_same_residuals
 from lagrangian.check.explain.second_choices import fitting
+from lagrangian.check.explain.told_as_a_whole import told_as_a_whole
 from lagrangian.check.explain.told_truly import told_truly
 from lagrangian.check.explain.uncovered import with_uncovered_terms
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
@@ -247,7 +248,7 @@ def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], h
 
 def _claims_checked(truth: Reference, verdict: check.Verdict) -> check.Verdict:
     """The verdict with mistakes that say no more than what is written."""
-    verdict = with_lengths_added(truth, with_sums_compared(truth, verdict))
+    verdict = told_as_a_whole(truth, with_lengths_added(truth, with_sums_compared(truth, verdict)))
     checked = with_denominators_named(truth, with_claims_checked(with_written_deflections(verdict)))
     return without_bare_forms(truth, with_uncovered_terms(truth, checked))
 
@@ -395,6 +396,5 @@ def _told(derivation: Derived, verdict: check.Verdict, answer: Answer, notes: Se
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
     notes = [x for x in notes if str(x) not in named] + rows_left(derivation.model, answer, verdict, whole=not unjudged)
     verdict = without_added(only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices))
-    read = (text(Verbatim(note)) for note in told)
-    listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
+    listed = {str(x): x for x in (*(text(Verbatim(note)) for note in told), *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(as_typed(note, answer.lines) for note in listed.values()))

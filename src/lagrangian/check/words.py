@@ -129,7 +129,7 @@ def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
     if not 0 < len(differing) <= MOST_SAID_FIRST:
         return (*said, ".")
     for k, d in enumerate(differing):
-        said += [" and " if k else ": ", *differs(d)]
+        said += [" and " if k else ": ", *differs(on_side(wrong[0].line, d)[1])]
     return (*said, ".")
 
 
