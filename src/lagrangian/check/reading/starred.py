@@ -23,10 +23,15 @@ _RAISED = re.compile(
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
 _STATED = re.compile(
-    rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
-    rf"(?:=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))",
+    rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[^\s+−*/^·×=\\-])[ \t]*+(?<!\w)(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
+    rf"(?::?=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))",
     re.MULTILINE,
 )
+"""A name with a star in front of what it stands for; no operator stands in front of it."""
+_STATED_BEHIND = re.compile(
+    rf"=(?P<defined>[ ]?:)?[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])(?=[ \t]*+(?:[,;.)\]|]|$))", re.MULTILINE
+)
+"""One behind it: J + M a² =: J*; behind a plain equals sign, a star may also be a mark."""
 _SUBTRACTED = re.compile(
     rf"(?<![\w*^/])(?P<of>{_NAME})[ \t]*(?:[-−][ \t]*(?P=of)(?:\\?\*|[⋆★])"
     r"(?=[ \t]*(?:[.,;:)]|$|[^\W\d_]{2}))"
@@ -90,13 +95,20 @@ def _raised(text: str, latex: bool) -> Iterator[Edit]:
 
 def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
     said = {m["name"] for m in islice(_STATED.finditer(text), MOST)}
+    said |= {m["name"] for m in islice(_STATED_BEHIND.finditer(text), MOST) if m["defined"] or _again(m["name"], text)}
     said |= {m["of"] for m in islice(_SUBTRACTED.finditer(text), MOST)}
+    products = sum(map(text.count, "*⋆★")) > sum(m["name"] in said for m in _JOINED.finditer(text))
     for name in sorted(said):
         if name[0] == "T":
             continue
-        alone = known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None
+        alone = products and (known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None)
         found = (m for m in (_BESIDE if alone else _JOINED).finditer(text) if m["name"] == name)
         yield from ((*m.span(), _named(f"{name}_star", latex)) for m in islice(found, MOST))
+
+
+def _again(name: str, text: str) -> bool:
+    """Whether a name stands with its star more than once."""
+    return len([*islice((m for m in _JOINED.finditer(text) if m["name"] == name), 2)]) > 1
 
 
 def _named(name: str, latex: bool) -> str:
