@@ -156,3 +156,20 @@ def test_a_term_is_quoted_as_it_was_written(wrong: str, told: str) -> None:
     drum = DRUM.replace("M g r/2", "M g r/2 phi'")
     words = [str(m.what) for m in capstan().check(f"{drum}\n{CART}").mistakes]
     assert not any(x.startswith("In the term") and "phi'" not in x.split(" of the ")[0] for x in words), words
+
+
+def test_a_torque_through_a_gear_lacks_no_damper_that_stands_in_the_equation() -> None:
+    """The ratio in it is also that of the damper."""
+    sys = System("gear")
+    phi = sys.coordinates("phi")
+    J, n, c = sys.parameters("J n c")
+    tau = sys.inputs("tau")
+    sys.kinetic(J * (n * phi.diff()) ** 2 / 2, name="wheel")
+    sys.damper(c, deflection=n * phi, name="bearing")
+    sys.torque(tau, on=phi, name="motor")
+    gear = sys.derive()
+    answer = "Xi = {}\nJ n^2 phi'' + c n^2 phi' = Xi"
+    assert gear.check(answer.format("tau")).right
+    verdict = gear.check(answer.format("n tau"))
+    elements = {o.element for f in verdict.open_findings for d in f.differences for o in d.origins}
+    assert not verdict.right and elements == {"torque 'motor'"}
