@@ -286,3 +286,21 @@ def test_a_star_that_is_a_product_beside_a_name_with_a_star() -> None:
     assert is_right("m* = l^2\nm m* φ'' + b*φ' + m*g*l*sin φ = M", pendulum())
     assert not is_right("m* = l^2\nm*φ'' + b*φ' + m*g*l*sin φ = M", pendulum())
     assert is_right("m l² φ'' + b φ' + m g l sin φ = M*", pendulum()) is False
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "J_t about the pin: m l²",
+        "J_t on shaft 1: m l²   (l from the pin)",
+        "J_t (about the pin): m l².",
+        "J_t, all that turns: m l²",
+        "- J_t about the pin = m l²",
+        "J_t about pin 1 is m l².",
+    ],
+)
+def test_a_name_with_words_and_a_colon_has_the_formula_behind_it(said: str) -> None:
+    answer = f"{said}\nJ_t φ'' + b φ' + m g l sin φ = M"
+    assert is_right(answer, pendulum())
+    assert not is_right(answer.replace("m l²", "2 m l²"), pendulum())
+    assert not is_right(answer.replace("J_t φ''", "2 J_t φ''"), pendulum())

@@ -22,12 +22,13 @@ _RAISED = re.compile(
 )
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
+_BEFORE = r"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+"
 _STATED = re.compile(
-    rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[^\s+−*/^·×=\\-])[ \t]*+(?<!\w)(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
-    rf"(?::?=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))",
+    rf"{_BEFORE}(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))"
+    rf"|[^\s+−*/^·×=\\-][ \t]*+(?<!\w)(?P<own>{_NAME})(?:\\?\*|[⋆★])[ \t]*+:?=(?![=>])",
     re.MULTILINE,
 )
-"""A name with a star in front of what it stands for; no operator stands in front of it."""
+"""A name with a star in front of what it stands for; in front of an equals sign, behind anything but an operator."""
 _STATED_BEHIND = re.compile(
     rf"=(?P<defined>[ ]?:)?[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])(?=[ \t]*+(?:[,;.)\]|]|$))", re.MULTILINE
 )
@@ -94,7 +95,7 @@ def _raised(text: str, latex: bool) -> Iterator[Edit]:
 
 
 def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
-    said = {m["name"] for m in islice(_STATED.finditer(text), MOST)}
+    said = {m["name"] or m["own"] for m in islice(_STATED.finditer(text), MOST)}
     said |= {m["name"] for m in islice(_STATED_BEHIND.finditer(text), MOST) if m["defined"] or _again(m["name"], text)}
     said |= {m["of"] for m in islice(_SUBTRACTED.finditer(text), MOST)}
     products = sum(map(text.count, "*⋆★")) > sum(m["name"] in said for m in _JOINED.finditer(text))
