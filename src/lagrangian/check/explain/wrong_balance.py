@@ -351,7 +351,7 @@ def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine
 
 
 def _is_shorthand(truth: Reference, line: AnsweredLine, verdict: Verdict) -> bool:
-    """Whether a definition is that of a side of equations above it, which are right with it: A x″ + B φ″ = P, P = F − k x."""
+    """Whether a definition is of a side of equations above it that are right with it: A x″ + B φ″ = P, P = F − k x."""
     own, accelerations = key(str(line.name)), [c.acceleration for c in truth.model.coordinates]
     above = [f for f in verdict.findings if f.line.kind == "equation" and f.line.number < line.number]
     using = [f.status.right for f in above if own in f.line.names]
