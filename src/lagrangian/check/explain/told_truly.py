@@ -20,7 +20,7 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.second_choices import MADE_IN, is_of_what_is_there, is_stated, right_notes
 from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import parted
-from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
+from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake, with_terms_of_own_forces
 from lagrangian.check.terms.pieces import partner
 from lagrangian.check.verdict import IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
@@ -65,7 +65,7 @@ def told_truly(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with mistakes that no line refutes."""
     if verdict.status is not Status.WRONG or verdict.hint == 0 or not verdict.mistakes:
         return verdict
-    return with_certain_terms(_unrefuted(verdict))
+    return with_certain_terms(with_terms_of_own_forces(_unrefuted(verdict)))
 
 
 def _unrefuted(verdict: Verdict) -> Verdict:
