@@ -198,6 +198,17 @@ def test_a_sum_of_numbers_with_a_wrong_amount_blames_no_body() -> None:
     assert not any("In line 1" in str(m.what) for m in verdict.mistakes)
 
 
+@pytest.mark.parametrize("sum_", ["1.7", "(1.5 + 0.2)", "9.25"])
+def test_a_wrong_sum_of_numbers_is_told_as_the_sum(sum_: str) -> None:
+    """Not as a number of one of the bodies whose sum it is; a number of one alone is that of this one."""
+    hoist = loads(TWO).derive()
+    verdict = hoist.check(f"{sum_} x'' + 2 x' = F\n4 s'' + 30 s = 0")
+    [mistake] = verdict.mistakes
+    assert str(mistake.what).endswith("should be 3.5*x''.") and mistake.element is None, str(mistake.what)
+    verdict = hoist.check("3.5 x'' + 2 x' = F\n4.7 s'' + 30 s = 0")
+    assert "block" in str(verdict.mistakes[0].what) + str(verdict.mistakes[0].element)
+
+
 def test_an_amount_is_told_with_three_digits() -> None:
     """0.0625, not 0.06 where 0.25 was written."""
     verdict = swing().check(f"m l^2/30 = 0.45\n{ROW}")

@@ -43,6 +43,8 @@ OF_LETTERS = (
     "divisor_missing",
 )
 """Names of mistakes in the powers of letters and rates."""
+OF_NUMBERS = ("wrong_number", "factor_of_a_term")
+"""Names of mistakes in a number."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 WHY_DOUBLE_V = text("V has the square of a whole deflection, and (a − b)² has the double product −2 a b, too.")
 MADE_IN_STEPS = {2: ("T", "kinetic"), 3: ("V", "potential")}
@@ -131,6 +133,8 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
         return bool(own) and all(f.status.right for f in own)
     if _is_of_right_slope(mistake, verdict) or _is_of_numbers(mistake, verdict) or _has_its_sign(mistake, verdict):
         return True
+    if _is_of_one_in_a_sum(mistake, verdict):
+        return True
     if mistake.name in HALF and any(_has_its_half(f, d) for f, d in _differing(mistake, verdict)):
         return True
     if (
@@ -189,6 +193,13 @@ def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
     if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
         return False
     return not any(f.line.expr.free_symbols - {time} for f in wrong)
+
+
+def _is_of_one_in_a_sum(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a number is said to be wrong that one of several elements has, where a line in numbers has their sum."""
+    told = _differing(mistake, verdict) if mistake.name in OF_NUMBERS else []
+    summed = (d.kind == "coefficient" and len({o.element for o in d.origins}) > 1 for _, d in told)
+    return bool(told) and all(summed) and not any(f.line.expr.free_symbols - {time} for f, _ in told)
 
 
 def _has_its_sign(mistake: Mistake, verdict: Verdict) -> bool:

@@ -48,6 +48,8 @@ _ENERGY = re.compile(
 )
 """T, T* or one of a part: T^{*}_{\\mathrm{coil}}, T*_coil, T_coil."""
 _GOES_ON = re.compile(r"[ \t]*(?:\\\\)?\n?[ \t]*&?[ \t]*=")
+_FACTOR = re.compile(r"(?!\w{1,12}['’′\u0307\u0308])[\w(]")
+"""What stands directly behind the sign of a product, and is no rate, which may also stand behind a name with a star."""
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
 """A star at the end of a heading: factor of s*:"""
 
@@ -98,7 +100,8 @@ def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Ed
     said = {m["name"] or m["own"] for m in islice(_STATED.finditer(text), MOST)}
     said |= {m["name"] for m in islice(_STATED_BEHIND.finditer(text), MOST) if m["defined"] or _again(m["name"], text)}
     said |= {m["of"] for m in islice(_SUBTRACTED.finditer(text), MOST)}
-    products = sum(map(text.count, "*⋆★")) > sum(m["name"] in said for m in _JOINED.finditer(text))
+    own = [m for m in _JOINED.finditer(text) if m["name"] in said and _FACTOR.match(text, m.end()) is None]
+    products = sum(map(text.count, "*⋆★")) > len(own)
     for name in sorted(said):
         if name[0] == "T":
             continue
