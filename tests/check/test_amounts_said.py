@@ -147,6 +147,70 @@ def test_an_equation_follows_from_a_wrong_amount_above_it() -> None:
     assert not other.findings[1].follows
 
 
+TWO = """
+name = "hoist"
+[coordinates]
+x = "load"
+s = "block"
+[parameters]
+m = "1.5 kg"
+J = "0.08 kg*m^2"
+r = "0.2 m"
+k = "30 N/m"
+d = "2 N*s/m"
+M = "4 kg"
+[inputs]
+F = "N"
+[[kinetic]]
+name = "load"
+value = "m*x'^2/2"
+[[kinetic]]
+name = "drum"
+value = "J*(x'/r)^2/2"
+[[kinetic]]
+name = "block"
+value = "M*s'^2/2"
+[[spring]]
+name = "band"
+k = "k"
+deflection = "s"
+[[damper]]
+name = "brake"
+b = "d"
+deflection = "x"
+[[force]]
+value = "F"
+deflection = "x"
+"""
+
+
+def test_a_sum_of_numbers_with_a_wrong_amount_blames_no_body() -> None:
+    """The number of one of several bodies is wrong where it was worked out; another mistake is told beside it."""
+    hoist = loads(TWO).derive()
+    amount, rows = "J/r^2 = 0.08/0.04 = {0}", "{1} x'' + 2 x' = F\n4 s'' + 30 {2} = 0"
+    assert hoist.check(f"{amount}\n{rows}".format("2.0", "3.5", "s")).right
+    verdict = hoist.check(f"{amount}\n{rows}".format("0.2", "1.7", "s"))
+    assert not verdict.right and [str(m.what) for m in verdict.mistakes] == ["In line 1, J/r^2 is 2.0, not 0.2."]
+    assert verdict.concerned(verdict.mistakes[0]) == []
+    verdict = hoist.check(f"{amount}\n{rows}".format("0.2", "1.7", "(1)"))
+    told = [str(m.what) for m in verdict.mistakes]
+    assert "In line 1, J/r^2 is 2.0, not 0.2." in told and not any("load" in x or "squared" in x for x in told), told
+    assert any("band" in x or "30" in x for x in told), told
+    verdict = hoist.check(f"{amount}\n{rows}".format("2.0", "1.7", "s"))
+    assert not any("In line 1" in str(m.what) for m in verdict.mistakes)
+
+
+@pytest.mark.parametrize("sum_", ["1.7", "(1.5 + 0.2)", "9.25"])
+def test_a_wrong_sum_of_numbers_is_told_as_the_sum(sum_: str) -> None:
+    """Not as a number of one of the bodies whose sum it is; a number of one alone is that of this one."""
+    hoist = loads(TWO).derive()
+    verdict = hoist.check(f"{sum_} x'' + 2 x' = F\n4 s'' + 30 s = 0")
+    [mistake] = verdict.mistakes
+    assert str(mistake.what).endswith("should be 3.5*x''.") and mistake.element is None, str(mistake.what)
+    verdict = hoist.check("3.5 x'' + 2 x' = F\n4.7 s'' + 30 s = 0")
+    assert "block" in str(verdict.mistakes[0].what) + str(verdict.mistakes[0].element)
+
+
 def test_an_amount_is_told_with_three_digits() -> None:
     """0.0625, not 0.06 where 0.25 was written."""
     verdict = swing().check(f"m l^2/30 = 0.45\n{ROW}")

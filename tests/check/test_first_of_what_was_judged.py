@@ -45,6 +45,38 @@ def test_a_formula_without_a_verdict_may_be_the_first(above: str, which: str) ->
 
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
+    ("above", "wrong", "which"),
+    [
+        ("δs = dr + r dph\n", "m r'' + m r ph'^2 + k (r - a) = 0", "line 1 above it was not judged"),
+        ("So the force is Z = m r phi'.\n", "S_2 = Z - m r'', S_2 = k (r - a)", "line 1 above it was not judged"),
+    ],
+)
+def test_so_may_one_with_names_that_are_read_as_others_or_used_on_its_line(above: str, wrong: str, which: str) -> None:
+    second = SECOND.replace("phi", "ph") if "ph'" in wrong else SECOND
+    said = told(f"{above}{wrong}\n{second}")
+    assert which in said and FIRST not in said
+
+
+PROGRAM = """from sympy import *
+t = symbols('t')
+m, J, k, a, M = symbols('m J k a M')
+r, phi = Function('r')(t), Function('phi')(t)
+T = m*(r.diff(t)**2 + r**2*phi.diff(t)**2)/2 + J*phi.diff(t)**2/2
+{line}
+for q, Q in ((r, -k*(r - a)), (phi, M*{turned}.diff(phi))):
+    eq = T.diff(q.diff(t)).diff(t) - T.diff(q) - Q
+    print(simplify(eq))
+"""
+
+
+def test_a_value_in_a_program_without_a_verdict_may_be_the_first() -> None:
+    assert rod().check(PROGRAM.format(line="xu = phi + r", turned="xu")).right
+    said = told(PROGRAM.format(line="xu = 2*phi + r", turned="xu"))
+    assert "line 6 above it was not judged" in said and FIRST not in said
+    assert FIRST in told(PROGRAM.format(line="u = phi", turned="(2*phi)"))
+
+
+@pytest.mark.parametrize(
     "above",
     [
         "",

@@ -265,3 +265,29 @@ def test_a_mass_matrix_that_no_solver_gets_multiplies_nothing() -> None:
     assert not right(MASS.replace(", opts);", ");"), "cart-pole")
     assert not right(MASS.replace("[t,y] =", "opts = odeset('RelTol', 1e-6);\n[t,y] =", 1), "cart-pole")
     assert right(MASS.replace("[t,y] =", "opts = odeset(opts, 'RelTol', 1e-6);\n[t,y] =", 1), "cart-pole")
+
+
+IN_COLUMNS = """{said}
+Mq = [M+m, m*l*cos(th); m*l*cos(th), J+m*l^2];
+Cq = [-m*l*sin(th)*w^2 + b*xd; 0];
+Gq = [0; -m*g*l*sin(th)];
+qdd = Mq \\ ([F; 0] - Cq - Gq);
+"""
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "% q = [x; th], qd = [xd; w]",
+        "% state: x, th, xd, w",
+        "% z = [x th xd w]'",
+        "% velocities (xd, w) of (x, th)",
+        "% q = [x, th]\n% v = [xd, w]",
+    ],
+)
+def test_a_letter_in_a_list_of_rates_is_the_rate_in_its_place(said: str) -> None:
+    cart = derivation("cart-pole")
+    verdict = cart.check(IN_COLUMNS.format(said=said))
+    assert verdict.right and all(f.line.number <= said.count("\n") + 5 for f in verdict.findings)
+    for right, wrong in (("*w^2", "*w"), ("b*xd", "b*w"), ("-m*l*sin", "m*l*sin")):
+        assert not cart.check(IN_COLUMNS.format(said=said).replace(right, wrong)).right

@@ -268,3 +268,45 @@ def test_pi_is_no_momentum(said: str) -> None:
     assert is_right(f"p_φ = m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
     assert not is_right(f"p_φ = 2 m l² φ'\nm l² φ'' + b φ' + m g l sin φ = M\n\n{said}", pendulum())
     assert not is_right(f"m l² φ'' + b φ' - m g l sin φ = M\n\n{said}", pendulum())
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "p = m* φ'           m* = m l²\np' + b φ' + m g l sin φ = M",
+        "m* = m l², p = m* φ'\np' + b φ' + m g l sin φ = M",
+        "m* φ'' + b φ' + m g l sin φ = M   (m* = m l²)",
+        "| m* = m l² |\nm* φ'' + b φ' + m g l sin φ = M",
+        "m* := m l²\nm*φ'' + b φ' + m g l sin φ = M",
+        "m l² =: m*\nm* φ'' + b φ' + m g l sin φ = M",
+        "m l² = m*\nm* φ'' + b φ' + m g l sin φ = M",
+    ],
+)
+def test_a_name_of_the_system_with_a_star_that_is_defined_anywhere_on_a_line(answer: str) -> None:
+    assert is_right(answer, pendulum())
+    assert not is_right(answer.replace("m l²", "2 m l²"), pendulum())
+    assert not is_right(answer.replace("sin φ", "sin(φ)²"), pendulum())
+
+
+def test_a_star_that_is_a_product_beside_a_name_with_a_star() -> None:
+    assert is_right("m* = l^2\nm m* φ'' + b*φ' + m*g*l*sin φ = M", pendulum())
+    assert not is_right("m* = l^2\nm*φ'' + b*φ' + m*g*l*sin φ = M", pendulum())
+    assert is_right("m l² φ'' + b φ' + m g l sin φ = M*", pendulum()) is False
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "J_t about the pin: m l²",
+        "J_t on shaft 1: m l²   (l from the pin)",
+        "J_t (about the pin): m l².",
+        "J_t, all that turns: m l²",
+        "- J_t about the pin = m l²",
+        "J_t about pin 1 is m l².",
+    ],
+)
+def test_a_name_with_words_and_a_colon_has_the_formula_behind_it(said: str) -> None:
+    answer = f"{said}\nJ_t φ'' + b φ' + m g l sin φ = M"
+    assert is_right(answer, pendulum())
+    assert not is_right(answer.replace("m l²", "2 m l²"), pendulum())
+    assert not is_right(answer.replace("J_t φ''", "2 J_t φ''"), pendulum())

@@ -32,6 +32,20 @@ def test_a_derivative_that_names_nothing_is_that_of_its_line(step: str) -> None:
     assert not right(f"{wrong}\n\n{BOTH}")
 
 
+@pytest.mark.parametrize("first", ["d/dt: ", "d/dt = ", "d/dt → "])
+@pytest.mark.parametrize("second", ["      ", "d/dt: "])
+@pytest.mark.parametrize("gap", ["", "\n"])
+def test_as_many_derivatives_as_there_are_above_are_those_of_each(first: str, second: str, gap: str) -> None:
+    step = (
+        "∂T/∂x' = (M + m) x' + m l theta' cos theta\n∂T/∂theta' = (J + m l^2) theta' + m l x' cos theta\n"
+        f"{gap}{first}(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta\n"
+        f"{second}(J + m l^2) theta'' + m l x'' cos theta - m l x' theta' sin theta"
+    )
+    assert right(f"{step}\n\n{BOTH}")
+    for slip in ("theta'^2 sin", "x' theta' sin"):
+        assert not right(f"{step.replace(slip, f'2 {slip}')}\n\n{BOTH}")
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "aside",

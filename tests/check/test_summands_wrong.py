@@ -75,3 +75,40 @@ def test_the_summand_is_found_as_it_is_written(first: str, sign: str, factor: sp
 def test_nothing_is_said_of_a_row_with_two_wrong_summands() -> None:
     verdict = cart().check(SOLVED.format(first="3 (m + n) Q", sign="+ 7"))
     assert not verdict.right and not any("has the wrong sign" in str(m.what) for m in verdict.mistakes)
+
+
+NAMED = """\
+A = m + n, B = n l^2, S = n l cos(phi)
+P = F - b x' - k x + n l sin(phi) phi'^2
+Q = -c phi' - n g l sin(phi)
+A x'' + S phi'' = P
+S x'' + B phi'' = Q
+{left} x'' = {right}
+phi'' = (Q - S x'')/B"""
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "told"),
+    [
+        ("(A B - S^2)", "B P - S Q", None),
+        ("", "(A P - S Q)/(A B - S^2)", "A*P/(A*B - S^2) should be B*P/(A*B - S^2)"),
+        ("(A - S^2/B)", "P - S Q", "-Q*S should be -Q*cos(phi)/l"),
+        ("(A B - S^2)", "B P - S Q/A", "-Q*S/A should be -Q*S"),
+    ],
+)
+def test_a_summand_with_another_quantity_of_the_answer(left: str, right: str, told: str | None) -> None:
+    verdict = cart().check(NAMED.format(left=left, right=right))
+    if told is None:
+        assert verdict.right
+    else:
+        assert [str(m.what).split(", ")[-1] for m in verdict.mistakes] == [f"{told}."]
+        assert [f.line.number for f in verdict.open_findings] == [6]
+
+
+def test_no_force_was_taken_out_where_the_answer_defines_its_right_sides_below() -> None:
+    answer = "\n".join(NAMED.format(left="(A - S^2/B)", right="P - S Q").split("\n")[i] for i in (0, 3, 4, 1, 2, 5, 6))
+    verdict = cart().check(answer)
+    assert not any("unknown force" in str(n) for n in verdict.notes) and not verdict.right
+    assert cart().check(answer.replace("P - S Q", "P - S Q/B")).right
+    told = [str(m.what) for m in verdict.mistakes]
+    assert told and "-Q*S should be -Q*cos(phi)/l" in told[0], told

@@ -50,6 +50,8 @@ def test_a_wrong_arm_is_no_second_share_of_a_force(wheel_on_hub: lg.Derivation) 
     words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "2 P (R + l)"}))
     assert "twice" not in words and "the factor is R + l; it should be R" in words, words
     words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "4 P R"}))
+    assert "stands with twice its value: 4*R*P should be 2*R*P" in words, words
+    words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "2 P R + 2 P R"}))
     assert "is counted twice" in words, words
     verdict = wheel_on_hub.check(HUB.format(**RIGHT_HUB | {"hub": "P R"}))
     assert not any("factor" in str(m.what) for m in verdict.alternatives), verdict.to_text()

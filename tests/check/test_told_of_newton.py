@@ -11,6 +11,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+import sympy as sp
 
 from lagrangian import Derivation, System
 
@@ -62,3 +63,39 @@ def test_lagranges_equations_beside_what_is_true_are_lagranges_equations() -> No
     assert both.right and "one by one" not in both.to_text()
     alone = hatch().check(power)
     assert alone.right and "one by one" in alone.to_text()
+
+
+def test_a_moment_of_a_force_of_its_own_with_a_wrong_sign_is_of_no_element() -> None:
+    """Nor are terms told that only stand in the line once the force is put in."""
+    sys = System("hanging leg")
+    theta, phi = sys.coordinates("theta phi")
+    J, L, m, I, b, g = sys.parameters("J L m I b g")
+    F, tau = sys.inputs("F tau")
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(theta, name="arm"), name="arm")
+    at = sys.point("G", (L * sp.cos(theta) + b * sp.sin(phi), L * sp.sin(theta) - b * sp.cos(phi)))
+    sys.rigid_body(m, I, at=at, frame=sys.frame(phi, name="leg"), name="leg")
+    sys.gravity((0, -1), g)
+    sys.torque(tau, on=theta, name="drive")
+    sys.force((F, 0), at=at, name="wind")
+    leg = sys.derive()
+    answer = r"""
+\begin{align}
+m\ddot x_2 &= A_x + F, & m\ddot y_2 &= A_y - mg\\
+I\ddot\varphi &= -A_x b\cos\varphi - A_y b\sin\varphi
+\end{align}
+with
+\begin{align}
+\ddot x_2 &= -L\ddot\theta\sin\theta - L\dot\theta^2\cos\theta + b\ddot\varphi\cos\varphi - b\dot\varphi^2\sin\varphi\\
+\ddot y_2 &= L\ddot\theta\cos\theta - L\dot\theta^2\sin\theta + b\ddot\varphi\sin\varphi + b\dot\varphi^2\cos\varphi
+\end{align}
+\begin{equation}
+J\ddot\theta = \tau SIGN A_xL\sin\theta - A_yL\cos\theta
+\end{equation}
+Elimination of $A_x = m\ddot x_2 - F$ and $A_y = m\ddot y_2+mg$: the equations.
+"""
+    assert leg.check(answer.replace("SIGN", "+")).right
+    verdict = leg.check(answer.replace("SIGN", "-"))
+    [mistake] = verdict.mistakes
+    assert "has the wrong sign" in str(mistake.what) and "A_x" in str(mistake.what)
+    assert verdict.concerned(mistake) == []
+    assert all(d.kind == "sign" and not d.origins for f in verdict.open_findings for d in f.differences)

@@ -65,6 +65,24 @@ def test_a_weight_that_stands_in_two_terms_is_counted_twice() -> None:
     assert "twice" in what and "twice its value" not in what
 
 
+@pytest.mark.parametrize(("load", "should"), [("2 L b", "L b"), ("L (2 b)", "L b")])
+def test_a_force_at_twice_its_arm_is_not_counted_twice(load: str, should: str) -> None:
+    sys = System("lever")
+    phi = sys.coordinates("phi")
+    J, b = sys.parameters("J b")
+    L = sys.inputs("L")
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(phi, name="bar"), name="bar")
+    sys.force((0, L), at=sys.point("E", (b * cos(phi), b * sin(phi))), name="load")
+    lever = sys.derive()
+    assert lever.check(f"J phi'' = {should} cos(phi)").right
+    for answer in (f"J phi'' = {load} cos(phi)", f"T = 1/2 J phi'^2\nV = 0\nXi = {load} cos(phi)"):
+        [mistake] = lever.check(answer).mistakes
+        assert "twice its value" in str(mistake.what) or "factor" in str(mistake.what), str(mistake.what)
+        assert "counted twice" not in str(mistake.what) and "in V" not in str(mistake.why)
+    [mistake] = lever.check(f"J phi'' = {should} cos(phi) + {should} cos(phi)").mistakes
+    assert "is counted twice" in str(mistake.what)
+
+
 def test_a_ratio_without_its_half_is_told_by_the_bracket() -> None:
     [(what, _)] = said(f"{DRUM}\n{CART.replace('k (x - r phi/2)', 'k (x - r phi)')}")
     assert what == "In line 2, k*(-r*phi + x) stands where k*(-r*phi/2 + x) belongs."
@@ -139,3 +157,20 @@ def test_a_term_is_quoted_as_it_was_written(wrong: str, told: str) -> None:
     drum = DRUM.replace("M g r/2", "M g r/2 phi'")
     words = [str(m.what) for m in capstan().check(f"{drum}\n{CART}").mistakes]
     assert not any(x.startswith("In the term") and "phi'" not in x.split(" of the ")[0] for x in words), words
+
+
+def test_a_torque_through_a_gear_lacks_no_damper_that_stands_in_the_equation() -> None:
+    """The ratio in it is also that of the damper."""
+    sys = System("gear")
+    phi = sys.coordinates("phi")
+    J, n, c = sys.parameters("J n c")
+    tau = sys.inputs("tau")
+    sys.kinetic(J * (n * phi.diff()) ** 2 / 2, name="wheel")
+    sys.damper(c, deflection=n * phi, name="bearing")
+    sys.torque(tau, on=phi, name="motor")
+    gear = sys.derive()
+    answer = "Xi = {}\nJ n^2 phi'' + c n^2 phi' = Xi"
+    assert gear.check(answer.format("tau")).right
+    verdict = gear.check(answer.format("n tau"))
+    elements = {o.element for f in verdict.open_findings for d in f.differences for o in d.origins}
+    assert not verdict.right and elements == {"torque 'motor'"}

@@ -29,6 +29,13 @@ def test_a_virtual_work_of_some_forces_or_of_all_is_right(work: str) -> None:
     assert derivation("cart-pole").check(f"{work}\n{ROWS}" if "\\" not in work else work + _latex()).right
 
 
+def test_displacements_may_be_spelled_where_words_say_that_they_are_virtual() -> None:
+    above = "Principle of virtual work:\ndelta x_P = delta x + l cos(theta) delta theta\n"
+    right, wrong = (derivation("cart-pole").check(above + x) for x in (ROWS, ROWS.replace("F - b", "F + b")))
+    assert right.right and not wrong.right
+    assert not any("'delta'" in str(note) for v in (right, wrong) for note in v.notes)
+
+
 @pytest.mark.parametrize(
     ("work", "told"),
     [

@@ -28,6 +28,7 @@ NEAR = 0.5
 """The fraction of terms of an equation that must agree with one that another line already states."""
 MOST_ALIKE = 20_000
 """The most terms of a line, multiplied out, whose functions are compared in any form."""
+Coefficients = dict[tuple[object, object], Fraction]
 LONGEST_FACTOR = 40
 """Terms times a factor with more operations, such as the inverse of a long determinant, can no longer be compared."""
 
@@ -197,7 +198,7 @@ def voted(truth: Reference, expr: sp.Expr, right: Form | None, like: Likeness) -
     return replace(like, factor=found[0].factor) if found and found[0].votes > 1 else like
 
 
-def _coefficients(form: Form) -> dict[tuple[object, object], Fraction]:
+def _coefficients(form: Form) -> Coefficients:
     """The coefficient of every monomial of every harmonic."""
     return {(h, m): Fraction(c, form.den) for h, p in form.parts.items() for m, c in p.items()}
 
@@ -219,24 +220,25 @@ def _groups(form: Form) -> list[frozenset[Key]]:
 def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigin, ...]:
     """The elements that add a term to equation ``index``, or to an energy, each once, with its step.
 
-    An element whose terms have the same motion and other letters adds nothing to it.
+    An element whose terms have the same motion and other letters adds nothing to it. Where those of some elements are
+    the term itself, it comes from these: in numbers, 0.1 cos θ is none of the −2 cos θ that others add.
     """
-    found: dict[TermOrigin, None] = {}
+    shares: list[tuple[TermOrigin, sp.Expr]] = []
     if index is None:
         for element in truth.model.elements:
             lost = element.dissipation(truth.model) or sp.S.Zero
             for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3), (lost, 6)):
-                if energy != 0 and _adds_to(truth, truth.expand(energy), term):
-                    found[TermOrigin(element.title, step)] = None
-        return tuple(found)
-    for origin in truth.derivation.shares.where(term.expr()):
-        own = origin.coordinate == truth.model.coordinates[index].name
-        if own and _adds_to(truth, truth.put(origin.share), term):
-            found[TermOrigin(origin.element.title, origin.step)] = None
-    return tuple(found)
+                shares += [(TermOrigin(element.title, step), truth.expand(energy))] if energy != 0 else []
+    for origin in truth.derivation.shares.where(term.expr()) if index is not None else ():
+        if origin.coordinate == truth.model.coordinates[index or 0].name:
+            shares.append((TermOrigin(origin.element.title, origin.step), truth.put(origin.share)))
+    wanted = _coefficients(term)
+    found = [(origin, own) for origin, share in shares if (own := _shared(truth, share, wanted))]
+    whole = [origin for origin, own in found if own in (wanted, {k: -x for k, x in wanted.items()})]
+    return tuple(dict.fromkeys(whole or (origin for origin, _ in found)))
 
 
-def _adds_to(truth: Reference, share: sp.Expr, term: Form) -> bool:
-    """Whether what an element adds has a monomial of a term."""
+def _shared(truth: Reference, share: sp.Expr, wanted: Coefficients) -> Coefficients:
+    """What an element adds, in the monomials of a term."""
     form = truth.form(share)
-    return form is not None and not _coefficients(form).keys().isdisjoint(_coefficients(term))
+    return {} if form is None else {k: x for k, x in _coefficients(form).items() if k in wanted}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
@@ -36,6 +37,7 @@ _ENDS_OPEN = re.compile(r"[-+−*·/=&(\[{,][ \t]*$|\\\\?[ \t]*$")
 _HEADING = re.compile(r"[ \t]*\*\*[^*\n=]{1,80}\*\*[ \t]*")
 _UNJUDGED = re.compile(r"'(?P<text>.{1,400})' was not judged")
 _RATE = re.compile(r"_?d{1,2}ot$")
+_SPELLED = re.compile(r"'(?P<own>[^']{1,20})' was read as (?P<name>\w{1,20})\.")
 _NUMBER = re.compile(r"[ \t]*[-+−]?\d{1,9}(?:[.,]\d{1,9})?[ \t]*")
 _PLAIN = frozenset(["body", "rigid", "particle", "spring", "damper", "force", "torque", "of", "the"])
 """Words that are in the titles of many elements."""
@@ -97,7 +99,11 @@ def unjudged_above(text: str, verdict: Verdict, model: Model, answer: Answer) ->
     alone, and that belong to none which has one."""
     first = verdict.first_wrong
     rows = text.split("\n")
-    if first is None or len(rows) > MOST_LINES or not _is_at(first.line.number, first.line.text, rows):
+    if first is None or len(rows) > MOST_LINES:
+        return Unjudged()
+    if answer.program:
+        return Unjudged(_values_above(verdict, first, answer))
+    if not _is_at(first.line.number, first.line.text, rows):
         return Unjudged()
     above = _Above(verdict, model, answer)
     lines, partly = list[int](), list[int]()
@@ -115,6 +121,18 @@ def unjudged_above(text: str, verdict: Verdict, model: Model, answer: Answer) ->
     return Unjudged(tuple(lines), tuple(partly))
 
 
+def _values_above(verdict: Verdict, first: Finding, answer: Answer) -> tuple[int, ...]:
+    """The lines of a program above the first wrong one that give a name a sum of what moves and have no verdict."""
+    judged = {f.line.number for f in verdict.findings} | {first.line.number}
+    said = [
+        x
+        for x in answer.lines
+        if x.kind == "definition" and x.place.line is not None and not x.rhs.atoms(sp.Derivative)
+    ]
+    lines = {x.place.line for x in said if isinstance(x.rhs, sp.Add) and x.rhs.has(AppliedUndef)}
+    return tuple(sorted(x for x in lines if x is not None and x < first.line.number and x not in judged))
+
+
 class _Above:
     """What is known of the lines above the first wrong one."""
 
@@ -127,12 +145,15 @@ class _Above:
         self.said = [x for x in answer.lines if x.kind == "definition" and x.name]
         self.moving = {key(c.name) for c in model.coordinates}
         self.moving |= {key(str(x.name)) for x in self.said if x.rhs.has(AppliedUndef)}
+        spelled = [m for note in verdict.notes for m in _SPELLED.finditer(str(note))]
+        self.moving |= {key(m["own"]) for m in spelled if key(m["name"]) in self.moving}
         self.inputs = {key(u.name) for u in model.inputs}
         self.letters = self.moving | {key(name) for name in model.symbols} | {key(str(x.name)) for x in self.said}
         self.named = {x for e in model.elements for x in _words(e.title)} - _PLAIN
         self.right = _used(self.said, [f for f in verdict.findings if f.status.right])
         first = verdict.first_wrong
-        self.asked = _used(self.said, [] if first is None else [first]) - self.right
+        beside = [x.names for x in answer.lines if first is not None and x.place.line == first.line.number]
+        self.asked = _with_names_of(self.said, set[str]().union(*beside)) - self.right
 
     def is_formula(self, row: str) -> bool:
         """Whether a row has a formula of what moves, or says in words and a letter what a force is."""
@@ -193,7 +214,11 @@ class _Above:
 
 def _used(said: Sequence[AnswerLine], findings: Sequence[Finding]) -> set[str]:
     """The keys of the names that some lines use, themselves or by others."""
-    used = set[str]().union(*(f.line.names for f in findings if f.line.kind != "definition"))
+    return _with_names_of(said, set[str]().union(*(f.line.names for f in findings if f.line.kind != "definition")))
+
+
+def _with_names_of(said: Sequence[AnswerLine], used: set[str]) -> set[str]:
+    """The names that are used, with those that stand in their values."""
     for _ in said:
         more = set[str]().union(*(x.names for x in said if key(str(x.name)) in used))
         if more <= used:

@@ -220,9 +220,9 @@ def _undamped(truth: Reference, line: AnsweredLine, by: By, lines: Sequence[Answ
     drive = own.along(name, lambda x: driving(truth, places[x]))
     damping = bounded.expand(own.along(name, _forces(truth, truth.Xi)) - drive)
     added = damping.free_symbols | damping.atoms(sp.Derivative)
-    if (damping.free_symbols - drive.free_symbols - {time}) & line.expr.free_symbols:
-        return None
-    if (damping.atoms(sp.Derivative) - drive.atoms(sp.Derivative)) & line.expr.atoms(sp.Derivative):
+    letters = damping.free_symbols - drive.free_symbols - {time}  # not the ratio of a gear, unless it is all they have
+    rates = damping.atoms(sp.Derivative) - drive.atoms(sp.Derivative)
+    if (letters - truth.L.free_symbols or letters) & line.expr.free_symbols or rates & line.expr.atoms(sp.Derivative):
         return None  # −g φ̇ is meant as the damper's −c φ̇
     i = index_of(truth, line.name)
 

@@ -115,8 +115,8 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
             raise hidden
     else:
         verdict = check.check(derivation, given, hint=hint)
-    if written and isinstance(given, Answer) and not given.program:
-        if given.notation == "text" and verdict.status is check.Status.WRONG and hint:
+    if written and isinstance(given, Answer):
+        if given.notation == "text" and not given.program and verdict.status is check.Status.WRONG and hint:
             verdict = with_parts_above(truth_of(derivation), written, verdict)
         above = unjudged_above(written, verdict, derivation.model, given)
         verdict = without_unread_reasons(replace(verdict, unjudged=above.lines, partly=above.partly), written)

@@ -338,8 +338,8 @@ class Verdict:
                 continue
             origins = [o for d in f.differences for o in d.origins if o.step in ledgers]
             found += [(o.element, o.step) for o in origins]
-        own = [x for x in found if x not in others] or found
-        return list(dict.fromkeys(element for element, _ in own))[:3]
+        listed = [*dict.fromkeys(element for element, _ in [x for x in found if x not in others] or found)]
+        return listed if len(listed) <= 3 else []  # some of many would be a guess
 
     @property
     def right_lines(self) -> int:

@@ -7,7 +7,7 @@ t lies outside it are one multiple of each other, 1 − f.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 from typing import Any, cast
@@ -125,7 +125,7 @@ def stands_in(term: sp.Expr, line: AnsweredLine) -> bool:
 def _quotient(truth: Reference, one: sp.Expr, other: sp.Expr) -> bool:
     """Whether a term is another one times a factor that depends on the place alone."""
     values = CompiledExpressions([one, other]).at(truth.states).reshape(2, SETS * PLACES, -1)
-    return _share(values[0], values[1]) is not None
+    return multiple_of(values[0], values[1]) is not None
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
     found = in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
-        share = _share(wrong, across[term] - right)
+        share = multiple_of(wrong, across[term] - right)
         if share is not None and np.allclose(share, 1, rtol=NEAR):
             found.append((1, WrongTerm(term, factor)))
     found.sort(key=lambda x: x[0])
@@ -271,7 +271,7 @@ def _with_arms(truth: Reference, right: Sequence[sp.Expr], values: Mapping[sp.Ba
 def _lacking(right: Sequence[sp.Expr], wrong: Array, values: Array) -> WrongTerm | None:
     """The only one of some terms, given with their values, that is, but for its sign, what a line lacks."""
     found = values.reshape(len(right), *wrong.shape)
-    shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
+    shares = ((t, multiple_of(wrong, x)) for t, x in zip(right, found, strict=True))
     signed = [(t, share.mean()) for t, share in shares if share is not None and np.allclose(abs(share), 1, rtol=NEAR)]
     lacking = {cast("sp.Expr", -t if sign > 0 else t) for t, sign in signed}
     return WrongTerm(lacking.pop(), sp.oo) if len(lacking) == 1 else None
@@ -282,12 +282,17 @@ def _together(group: Sequence[sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", sp.factor_terms(sp.Add(*group))) if len(group) > 1 else group[0]
 
 
-def in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
+Factors = Iterable[tuple[sp.Expr, Any]]
+
+
+def in_factors(
+    truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array], factors: Factors = ()
+) -> list[tuple[int, WrongTerm]]:
     """The terms that are wrong by a factor, if all others are right, each with how far-fetched the factor is."""
-    listed = list(_factors(truth))
+    listed = list(factors) or list(_factors(truth))
     found: list[tuple[int, WrongTerm]] = []
     for term, values in across.items():
-        if (share := _share(wrong, values)) is None:
+        if (share := multiple_of(wrong, values)) is None:
             continue
         near = (k for k, (_, x) in enumerate(listed) if np.allclose(1 - share, x, rtol=NEAR, atol=NEAR))
         if (k := next(near, None)) is not None:
@@ -308,7 +313,8 @@ def own_terms_of(expr: sp.Expr) -> list[sp.Expr]:
     for term in written:
         sums = [f for f in sp.Mul.make_args(term) if isinstance(f, sp.Add)][:1]
         rest = term / sums[0] if sums else sp.S.One
-        for t in (term, *(x * rest for x in sums[0].args)) if sums else (term,):
+        whole = (term,) if not sums or len(written) > 1 else ()  # of a product, the line itself is no term
+        for t in (*whole, *(x * rest for s in sums for x in s.args)):
             found.setdefault(bounded.expand(t), cast("sp.Expr", t))
     for t in sp.Add.make_args(bounded.expand(expr)):
         found.setdefault(cast("sp.Expr", t), cast("sp.Expr", t))
@@ -328,7 +334,7 @@ def outside_rows(truth: Reference, values: Array) -> Array:
     return np.where(np.abs(found) <= NEAR * scale, 0.0, found)
 
 
-def _share(wrong: Array, term: Array) -> Array | None:
+def multiple_of(wrong: Array, term: Array) -> Array | None:
     """By which multiple of a term something is wrong, at every place; None if it is none, or nothing is wrong."""
     size = (term * term).sum(axis=1)
     if (size == 0).any() or not np.abs(wrong).max():
@@ -362,8 +368,13 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
     listed += [f for q in lengths for x in letters for f in (q / x, x / q)]
     masses = [x for x in letters if is_mass(truth, x)]
     listed += [f for x in masses for y in masses if x != y for f in ((x + y) / x, x / (x + y))]
-    values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
-    yield from zip(listed, values, strict=True)
+    yield from at_places(truth, listed)
+
+
+def at_places(truth: Reference, listed: Sequence[sp.Expr]) -> Factors:
+    """Quantities that depend on the place alone, with their values at every place."""
+    values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), SETS * PLACES, -1)[:, :, 0]
+    return zip(listed, values, strict=True)
 
 
 def is_mass(truth: Reference, letter: sp.Symbol) -> bool:

@@ -6,16 +6,20 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.own_terms import LINES
 from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
+from lagrangian.model import time
 from lagrangian.page.formula import text
+from lagrangian.read.letters import key
 
 LEFT_OVER = (" differs in other ways as well.", " differ as well.")
 """How notes end on lines that the mistakes leave open."""
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
 WHY = text("Compare this term with its neighbours: its sign, its factors, its powers and its unit.")
+SIGN = " has the wrong sign"
 WHY_CARRIED = text(
     "What carries the body is accelerated, too: m times this acceleration belongs in a sum of forces, and its moment "
     "in a sum of moments about an axis that moves along."
@@ -68,3 +72,23 @@ def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:
     where = f"In {line.title}{f', {side}' if side else ''}, "
     brief = text(f"A term in {line.title} is not right{f': one that comes from {element}' if element else ''}.")
     return Mistake("term_alone", text(where, *differs(d), "."), WHY, step, element, finding.coordinate, brief)
+
+
+def with_terms_of_own_forces(verdict: Verdict) -> Verdict:
+    """The verdict, in which the wrong sign of a term with a force of the answer's own, −A L sin θ, is of this term: no
+    element has it, and what was put in for the force did not stand in the line."""
+    roots = verdict.open_findings
+    if len(roots) != 1 or len(verdict.mistakes) != 1:
+        return verdict
+    [finding], [mistake] = roots, verdict.mistakes
+    match mistake.what.parts:
+        case (str(first), sp.Expr() as term, str(last)) if first == "The term " and last.startswith(SIGN):
+            pass
+        case _:
+            return verdict
+    own = {x for x in bounded.letters(term) - bounded.letters(finding.line.expr) if x != time}
+    if not own or not {key(str(x.func if x.args else x)) for x in own} <= finding.line.names:
+        return verdict
+    told = replace(finding, differences=(TermDifference("sign", -term, term, finding.coordinate),))
+    findings = tuple(told if f is finding else f for f in verdict.findings)
+    return replace(verdict, findings=findings, mistakes=(replace(mistake, element=None, body=None, step=5),))

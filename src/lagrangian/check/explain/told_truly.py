@@ -29,7 +29,7 @@ from lagrangian.check.explain.second_choices import (
 )
 from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import REASON, parted
-from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake
+from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake, with_terms_of_own_forces
 from lagrangian.check.terms.pieces import partner
 from lagrangian.check.verdict import DERIVED, IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
@@ -52,6 +52,8 @@ OF_LETTERS = (
     "divisor_missing",
 )
 """Names of mistakes in the powers of letters and rates."""
+OF_NUMBERS = ("wrong_number", "factor_of_a_term")
+"""Names of mistakes in a number."""
 WHY_DOUBLE = text("T* has the square of a whole velocity, and (a + b)² has the double product 2 a b, too.")
 WHY_DOUBLE_V = text("V has the square of a whole deflection, and (a − b)² has the double product −2 a b, too.")
 WHY_DERIVED = text("Differentiate it once more, term by term, with the inner derivatives.")
@@ -85,7 +87,7 @@ def told_truly(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with mistakes that no line refutes."""
     if verdict.status is not Status.WRONG or verdict.hint == 0 or not verdict.mistakes:
         return verdict
-    return with_certain_terms(_unrefuted(verdict))
+    return with_certain_terms(with_terms_of_own_forces(_unrefuted(verdict)))
 
 
 def _unrefuted(verdict: Verdict) -> Verdict:
@@ -153,6 +155,8 @@ def _is_refuted(mistake: Mistake, verdict: Verdict) -> bool:
         return bool(own) and all(f.status.right for f in own)
     if _is_of_right_slope(mistake, verdict) or _is_of_numbers(mistake, verdict) or _has_its_sign(mistake, verdict):
         return True
+    if _is_of_one_in_a_sum(mistake, verdict):
+        return True
     if mistake.name in HALF and any(_has_its_half(f, d) for f, d in _differing(mistake, verdict)):
         return True
     if (
@@ -211,6 +215,13 @@ def _is_of_numbers(mistake: Mistake, verdict: Verdict) -> bool:
     if mistake.name not in OF_LETTERS or len(differing) != 1 or differing[0].kind != "coefficient":
         return False
     return not any(f.line.expr.free_symbols - {time} for f in wrong)
+
+
+def _is_of_one_in_a_sum(mistake: Mistake, verdict: Verdict) -> bool:
+    """Whether a number is said to be wrong that one of several elements has, where a line in numbers has their sum."""
+    told = _differing(mistake, verdict) if mistake.name in OF_NUMBERS else []
+    summed = (d.kind == "coefficient" and len({o.element for o in d.origins}) > 1 for _, d in told)
+    return bool(told) and all(summed) and not any(f.line.expr.free_symbols - {time} for f, _ in told)
 
 
 def _has_its_sign(mistake: Mistake, verdict: Verdict) -> bool:

@@ -1,7 +1,9 @@
 """Tells a factor 2 of a term that stands once by the ½ that is lost in it: it is counted once, with twice its value.
+So is one of which nothing says where the 2 comes from: not an element that is counted twice, but perhaps another arm.
 
 D = b ẋ²               The ½ of damper 'b' in D is missing.
 m g R for ½ m g R      The weight of the block stands with twice its value: m g R should be ½ m g R.
+2 F b                  Force 'F' stands with twice its value: 2 F b should be F b.
 k (x − R θ)            k (x − R θ) should be k (x − ½ R θ): one term of the bracket has twice its value
 """
 
@@ -26,6 +28,9 @@ TWICE = " stands with twice its value"
 WHY_LOST = text(
     "A ½ is lost: look for it in the arm, in how far its end moves with the coordinate, and before a square."
 )
+WHY_DOUBLED = text(
+    "Look for the 2: an arm may be another, as the whole length for half of it, or the same may act at two places."
+)
 WHY_BRACKET = text("Put in once more what moves with this coordinate: how far does each end move?")
 WHY_DAMPER = text("A damper pulls with its constant times its rate, and its force counts as far as its end moves.")
 
@@ -49,15 +54,14 @@ def _said(mistake: Mistake, places: Sequence[tuple[Finding, TermDifference]], *,
     ]
     if mistake.name == HALVED:
         return _halved(mistake, own) if silent else mistake
+    if mistake.name == "element_twice":
+        return _doubled(mistake, own)
     if not own or not all(_lost_half(f.line, d) for f, d in own):
         return mistake
     finding, difference = own[0]
     if finding.line.kind == "D" and (said := in_dissipation(mistake)) is not mistake:
         return said
     first, *more = mistake.what.parts
-    if mistake.name == "element_twice" and not more and isinstance(first, str) and first.endswith(f"{COUNTED}."):
-        what = text(first.removesuffix(f"{COUNTED}."), TWICE, ": ", *_pair(finding, difference), ".")
-        return replace(mistake, what=what, why=WHY_LOST)
     counts = [k for k, x in enumerate(more) if isinstance(x, str) and x.endswith(f"{COUNTS}.")]
     if not (first == "The term " and counts and more and isinstance(more[0], sp.Expr)):
         return mistake
@@ -70,6 +74,21 @@ def _said(mistake: Mistake, places: Sequence[tuple[Finding, TermDifference]], *,
     end = cast("str", more[counts[0]]).removesuffix(f"{COUNTS}.")
     words = (*more[1 : counts[0]], f"{end}{TWICE}: it should be ", more[0], *more[counts[0] + 1 :], ".")
     return replace(mistake, what=text(first, 2 * more[0], *words))
+
+
+def _doubled(mistake: Mistake, own: Sequence[tuple[Finding, TermDifference]]) -> Mistake:
+    """An element that stands with twice its value in terms that stand once: why is open, the arm may be another."""
+    first, *more = mistake.what.parts
+    if not own or not isinstance(first, str) or COUNTED not in first or not all(_is_doubled(f.line, d) for f, d in own):
+        return mistake
+    finding, difference = own[0]
+    lost = all(_lost_half(f.line, d) for f, d in own)
+    if lost and finding.line.kind == "D" and (said := in_dissipation(mistake)) is not mistake:
+        return said
+    place = [x.rstrip(".") if isinstance(x, str) else x for x in more]
+    begin, _, of = first.rstrip(".").partition(COUNTED)
+    what = text(begin, TWICE, of, *place, ": ", *_pair(finding, difference), ".")
+    return replace(mistake, what=what, why=WHY_LOST if lost else WHY_DOUBLED)
 
 
 def _halved(mistake: Mistake, own: Sequence[tuple[Finding, TermDifference]]) -> Mistake:
@@ -96,8 +115,11 @@ def _is_of(mistake: Mistake, finding: Finding, difference: TermDifference) -> bo
 def _lost_half(line: AnsweredLine, d: TermDifference) -> bool:
     """Whether a term stands once, with twice its value, without a 2 that the right one lacks."""
     right, own = (cast("sp.Rational", x.as_coeff_Mul()[0]) for x in (d.term, d.written))
-    if not (right.is_Rational and own.is_Rational and own == 2 * right and right.q % 2 == 0):
-        return False
+    return bool(right.is_Rational and own == 2 * right and right.q % 2 == 0) and _is_doubled(line, d)
+
+
+def _is_doubled(line: AnsweredLine, d: TermDifference) -> bool:
+    """Whether a term stands once, with twice its value."""
     return bounded.expand(d.written - 2 * d.term) == 0 and _count(line.summands, d.written) < 2
 
 

@@ -35,6 +35,8 @@ _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
 _IN = re.compile(r"(?P<link>,| in|^In) (?P<name>T\*|V)(?=[.:,; ]|$)")
 _LOST = re.compile(r"(?P<first>[A-Z])(?P<rest>(?:article|igid body|isc|ody|ass)[^.]{0,80}) is missing in T\*\.")
 """A body of which T* has nothing."""
+_BARE = re.compile(r"The deflection of (?P<spring>[^.]{1,80}) is not squared in its energy\.")
+"""A spring whose deflection is lost in an energy that nobody wrote."""
 _PRODUCTS = re.compile(r"(?P<the>[Tt])he products of different rates in (?:the kinetic energy|½mv²) of ")
 _OF = re.compile(
     r"(?<![½\w])(?P<the>[Tt])he (?:energy|kinetic energy(?= of the (?:rotation|translation))) of "
@@ -70,6 +72,9 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
     joined = list(_joined(mistake.what))
     if "T*" in silent and len(joined) == 1 and (lost := _LOST.fullmatch(str(joined[0]))) is not None:
         return text(f"The inertia of {lost['first'].lower()}{lost['rest']} is missing.")  # its weight may be there
+
+    if "V" in silent and len(joined) == 1 and (bare := _BARE.fullmatch(str(joined[0]))) is not None:
+        return text(f"In the force of {bare['spring']}, its deflection is missing.")
 
     def without(match: re.Match[str]) -> str:
         if match["name"] not in silent:

@@ -309,6 +309,7 @@ def with_forces_of_below(
     if definitions and any(m.name == SOLVED for m in verdict.mistakes):
         return verdict  # of a determinant: the lines that are divided by it are right as they are written
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
+    solved = [x for x in solved if not _is_shorthand(truth, x, verdict)]
     names_of = Counter(x.name for x in solved)
     if not solved or max(names_of.values()) > MOST_VALUES:
         return verdict
@@ -349,6 +350,14 @@ def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine
         return False
     moving = line.expr.has(*(c.acceleration for c in truth.model.coordinates))
     return moving or _stands_above(line, lines)
+
+
+def _is_shorthand(truth: Reference, line: AnsweredLine, verdict: Verdict) -> bool:
+    """Whether a definition is of a side of equations above it that are right with it: A x″ + B φ″ = P, P = F − k x."""
+    own, accelerations = key(str(line.name)), [c.acceleration for c in truth.model.coordinates]
+    above = [f for f in verdict.findings if f.line.kind == "equation" and f.line.number < line.number]
+    using = [f.status.right for f in above if own in f.line.names]
+    return bool(using) and all(using) and not line.expr.has(*accelerations)
 
 
 def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:

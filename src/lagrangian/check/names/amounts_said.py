@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -45,6 +45,8 @@ LONGEST = 80
 
 MOST_SIDES, MOST = 12, 200
 """The largest number of equations in the chain of such a line, and of such lines in an answer."""
+
+WHY = text("Work this number out once more, and everything that it stands in.")
 
 _NUMBER = re.compile(r"(?<![\w.,])(\d{1,30}+)(?:(?:[.,]|\{,\})(\d{1,30}+))?(?:[eE]([+-]?\d{1,2}+))?")
 
@@ -111,7 +113,31 @@ def judged_with_amounts(
     for finding in wrong:
         findings = inserted(findings, finding)
     motion, others = verdict.motion or verdict.right, () if followed else verdict.alternatives
-    return replace(verdict, status=Status.WRONG, findings=tuple(findings), alternatives=others, motion=motion)
+    told = _mistakes(verdict, [f for f in findings if f not in verdict.findings and f.follows], findings, wrong)
+    verdict = replace(verdict, mistakes=told, alternatives=others)
+    return replace(verdict, status=Status.WRONG, findings=tuple(findings), motion=motion)
+
+
+def _mistakes(
+    verdict: Verdict, following: Sequence[Finding], findings: Sequence[Finding], wrong: Sequence[Finding]
+) -> tuple[Mistake, ...]:
+    """The mistakes; those that are seen only in lines that follow from wrong amounts are these amounts: nothing says
+    that the energy of one of several bodies has a wrong number where a sum of numbers has."""
+
+    def is_seen(mistake: Mistake, f: Finding) -> bool:
+        if mistake.element is None:
+            return mistake.coordinate is not None and mistake.coordinate == f.coordinate
+        return any(o.element in mistake.element for d in f.differences for o in d.origins)
+
+    kept: list[Mistake] = []
+    for m in verdict.mistakes:
+        above = any(is_seen(m, f) for f in following) and not any(f.is_open and is_seen(m, f) for f in findings)
+        notes = [(f.line, f.note) for f in wrong if f.note is not None] if above else []
+        said = [text(f"In {line.title}, ", *note.parts) for line, note in notes]
+        brief = [text(f"A number in {line.title} is not right.") for line, _ in notes]
+        kept += [Mistake("wrong_amount", x, WHY, m.step, brief=y) for x, y in zip(said, brief, strict=True)]
+        kept += [] if said else [m]
+    return tuple({str(m.what): m for m in kept}.values())
 
 
 def _following(finding: Finding, wrong: Sequence[Finding], off: Sequence[float]) -> Finding:

@@ -4,14 +4,16 @@
 ∂L/∂q̇ = L q̇     d/dt → L q̈          d/dt(∂L/∂q̇) = L q̈
 ∂T/∂ẏ = m ẏ → m ÿ;  ∂V/∂y = m g     d/dt(∂T/∂ẏ) = m ÿ
 ∂L/∂ẏ = m ẏ ⏎ d/dt = m ÿ            d/dt(∂L/∂ẏ) = m ÿ          also d/dt(..) = m ÿ and d/dt → m ÿ
+∂T/∂ẋ = m ẋ ⏎ ∂T/∂ẏ = M ẏ ⏎ d/dt: m ẍ ⏎ M ÿ     d/dt(∂T/∂ẋ) = m ẍ ⏎ d/dt(∂T/∂ẏ) = M ÿ
 
-Both mean the derivative by time of what stands in front, on the same line or above, which is judged as such.
+Both mean the derivative by time of what stands in front, on the same line or above, which is judged as such. As many
+lines as there are derivatives above are those of each of them, in this order.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Set
+from collections.abc import Sequence, Set
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import TracedText
@@ -27,6 +29,8 @@ _ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?{_BY_TIME}(?:{_ARROW}|=(?!=
 """d/dt of nothing, with what stands between it and its value."""
 _BEGINS = re.compile(rf"[ \t]*+(?:[-•*][ \t]+)?(?:{_ARROW}[ \t]*)?(?P<said>{_BY_TIME}(?:{_ARROW}|=(?!=)|:(?=[ \t])))")
 """d/dt of nothing at the beginning of a line."""
+_BARE = re.compile(r"[ \t]*+[^\s+−=*/·^-][^=<>:]*+$")
+"""A line with an expression that goes on with no line above."""
 _MARKS_RATE = re.compile(r"_?(?:d|dt|dot|p|t)")
 _GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S|$)")
 """A value behind an arrow."""
@@ -39,14 +43,23 @@ def with_derivatives(text: TracedText, *, latex: bool = False) -> TracedText:
     edits: list[tuple[int, int, str]] = []
     above: str | None = None
     stems = {m["by"] for m in _PARTIAL.finditer(text.text)}
-    for line in re.finditer(r"[^\n]+", text.text):
+    lines = list(re.finditer(r"[^\n]*[^\s][^\n]*", text.text))
+    listed, group = dict[int, str](), list[str]()
+    for k, line in enumerate(lines):
         if latex and ("\\" in line.group() or "$" in line.group()):
             above = None
             continue
         slopes = [m for m in _PARTIAL.finditer(text.text, *line.span()) if _is_rate(m["by"], stems)]
         begins = _BEGINS.match(text.text, *line.span())
+        group = [*group, *(m["slope"] for m in slopes)]
+        if begins is not None and above is not None and k not in listed:
+            listed |= _each(lines[k : k + len(group) + 1], k, group)
+            group = []
         if begins is not None and above is not None:
-            edits.append((*begins.span("said"), f"d/dt({above}) = "))
+            edits.append((*begins.span("said"), f"d/dt({listed.get(k, above)}) = "))
+        elif k in listed:
+            start = line.end() - len(line.group().lstrip())
+            edits.append((start, start, f"d/dt({listed[k]}) = "))
         ends = [*(m.start() for m in slopes[1:]), line.end()]
         for slope, end in zip(slopes, ends[: len(slopes)], strict=True):
             found = _ALONE.search(text.text, slope.end(), end) or _value(text.text, slope.end(), end)
@@ -57,6 +70,18 @@ def with_derivatives(text: TracedText, *, latex: bool = False) -> TracedText:
                 edits.append((start, stop, f"; d/dt({slope['slope']}) = "))
         above = slopes[-1]["slope"] if slopes else above
     return text.edited(edits)
+
+
+def _each(lines: Sequence[re.Match[str]], first: int, slopes: Sequence[str]) -> dict[int, str]:
+    """The derivatives that several lines go on with, by the numbers of these, the first of which begins with d/dt, and
+    the others as well or with no equals sign; none if they are not as many as the ``slopes``."""
+    rest = (
+        x for x in lines[1:] if not (_BEGINS.match(x.group()) or (_TWICE.search(x.group()) and _BARE.match(x.group())))
+    )
+    end = next((x.start() for x in rest), None)
+    count = sum(end is None or x.start() < end for x in lines)
+    same = 1 < count == len(slopes) == len({*slopes})
+    return {first + k: slope for k, slope in enumerate(slopes)} if same else {}
 
 
 def _is_rate(name: str, stems: Set[str]) -> bool:

@@ -171,7 +171,9 @@ def _with_said_values(
     said = said_values(typed, names, _words(lines, typed), latex=latex)
 
     def read(with_values: SaidValues) -> Answer:
-        return _answer(completed(text, with_values.values, latex=latex), model, place, reading, [])
+        new = _answer(completed(text, with_values.values, latex=latex), model, place, reading, [])
+        own = range(len(text.rstrip().split("\n")) + 1)  # what is added behind them is no line of the answer
+        return replace(new, lines=tuple(x for x in new.lines if x.kind != "definition" or (x.place.line or 0) in own))
 
     others = (*answer.others, *(partial(read, x) for x in said))
     if near := misspelled(names, model.symbols):

@@ -22,11 +22,17 @@ _RAISED = re.compile(
 )
 _BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
 _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
+_BEFORE = r"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+"
 _STATED = re.compile(
-    rf"(?:^(?:[ \t]*+[-–•*+][ ])?|[,;:(]|(?<=\w)|(?<=\.)[ ])[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+"
-    rf"(?:=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))",
+    rf"{_BEFORE}(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|{MEANS}\b|:(?=[ \t][^\n=:]{{0,60}}[-+−]))"
+    rf"|[^\s+−*/^·×=\\-][ \t]*+(?<!\w)(?P<own>{_NAME})(?:\\?\*|[⋆★])[ \t]*+:?=(?![=>])",
     re.MULTILINE,
 )
+"""A name with a star in front of what it stands for; in front of an equals sign, behind anything but an operator."""
+_STATED_BEHIND = re.compile(
+    rf"=(?P<defined>[ ]?:)?[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])(?=[ \t]*+(?:[,;.)\]|]|$))", re.MULTILINE
+)
+"""One behind it: J + M a² =: J*; behind a plain equals sign, a star may also be a mark."""
 _SUBTRACTED = re.compile(
     rf"(?<![\w*^/])(?P<of>{_NAME})[ \t]*(?:[-−][ \t]*(?P=of)(?:\\?\*|[⋆★])"
     r"(?=[ \t]*(?:[.,;:)]|$|[^\W\d_]{2}))"
@@ -42,6 +48,8 @@ _ENERGY = re.compile(
 )
 """T, T* or one of a part: T^{*}_{\\mathrm{coil}}, T*_coil, T_coil."""
 _GOES_ON = re.compile(r"[ \t]*(?:\\\\)?\n?[ \t]*&?[ \t]*=")
+_FACTOR = re.compile(r"(?!\w{1,12}['’′\u0307\u0308])[\w(]")
+"""What stands directly behind the sign of a product, and is no rate, which may also stand behind a name with a star."""
 _HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
 """A star at the end of a heading: factor of s*:"""
 
@@ -89,14 +97,22 @@ def _raised(text: str, latex: bool) -> Iterator[Edit]:
 
 
 def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
-    said = {m["name"] for m in islice(_STATED.finditer(text), MOST)}
+    said = {m["name"] or m["own"] for m in islice(_STATED.finditer(text), MOST)}
+    said |= {m["name"] for m in islice(_STATED_BEHIND.finditer(text), MOST) if m["defined"] or _again(m["name"], text)}
     said |= {m["of"] for m in islice(_SUBTRACTED.finditer(text), MOST)}
+    own = [m for m in _JOINED.finditer(text) if m["name"] in said and _FACTOR.match(text, m.end()) is None]
+    products = sum(map(text.count, "*⋆★")) > len(own)
     for name in sorted(said):
         if name[0] == "T":
             continue
-        alone = known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None
+        alone = products and (known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None)
         found = (m for m in (_BESIDE if alone else _JOINED).finditer(text) if m["name"] == name)
         yield from ((*m.span(), _named(f"{name}_star", latex)) for m in islice(found, MOST))
+
+
+def _again(name: str, text: str) -> bool:
+    """Whether a name stands with its star more than once."""
+    return len([*islice((m for m in _JOINED.finditer(text) if m["name"] == name), 2)]) > 1
 
 
 def _named(name: str, latex: bool) -> str:

@@ -3,6 +3,7 @@
 I(phi) ... moment of inertia about the pin, J + m*l^2      I(phi) = J + m*l^2
 K ... static moment, (m*l/2 + M*l)*g                       K = (m*l/2 + M*l)*g
 Q: everything that turns, seen from O, = J + m l²          Q = J + m l²
+J_t about the pin: J + m*l^2                           J_t = J + m*l^2
 z = height of the plate (= l sin φ). Then …                z = l sin φ; Then …
 Here K is k*(r*phi - s), and A stands for b*s'             K = k*(r*phi - s); A = b*s'
 The spring pulls with k*(r*phi - s), which I call K.       K = k*(r*phi - s)
@@ -39,6 +40,14 @@ _LEGEND = re.compile(
     re.MULTILINE,
 )
 """A line with a name, what it is in words, and its formula."""
+_ABOUT = re.compile(
+    r"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.;][ ]))"
+    r"(?P<new>(?![TVUEL])(?:[^\W\d_]{1,8}[_\d₀-₉]\w{0,12}+|[B-HJ-ZΑ-Ωα-ω]))(?:,?[ \t]++)"
+    r"(?P<words>\(?[^\W\d_]{2,24}(?:[ ,()'’/-]{1,3}\w{1,24}){0,9})\)?[ \t]*+(?::=?|=|\bist?\b)[ \t]++"
+    r"(?P<value>[^\n=;:…]{2,200}?)(?:[ \t]*+[.;,]?[ \t]*+$|(?=[ \t]{2,9}+\())",
+    re.MULTILINE,
+)
+"""The same without a mark behind the name, which is no word: one with an index, or a single letter."""
 _BRACKETED = re.compile(
     rf"(?:^[ \t]*+(?:[-*•–][ \t]++)?|(?<=[.,;:][ ])|(?<!\w)(?:let|with|where|here|mit|wobei|sei)[ \t]++)"
     rf"(?P<new>{_NAME})[ \t]*+"
@@ -80,11 +89,11 @@ def with_explained_names(written: TracedText, taken: Callable[[str], bool], exac
     """
     text = written.text
     edits: list[Edit] = []
-    for match in (*islice(_LEGEND.finditer(text), MOST), *islice(_BRACKETED.finditer(text), MOST)):
+    for match in (m for form in (_LEGEND, _BRACKETED, _ABOUT) for m in islice(form.finditer(text), MOST)):
         words = re.findall(r"[^\W\d_]+", match["words"])
         spoken = not taken(words[0]) and any(len(x) > MOST_LETTERS and not taken(x) for x in words)
         changed = any(x.lower() in CHANGING for x in words) or _is_rate(match["words"], match["new"])
-        equals = match.re is _BRACKETED or bool(match["equals"])
+        equals = match.re is _BRACKETED or bool(match.groupdict().get("equals"))
         said = is_formula(match["value"], taken) or (equals and _is_product(match["value"], taken))
         if spoken and not changed and said and _is_new(match, text, exact):
             of = match.groupdict().get("of") or ""

@@ -334,7 +334,8 @@ def with_variations(
             written = written.edited([(*x.span(), "δ") for x in works])
         if works or _VIRTUAL.search(written.text) is not None:
             written = written.sub(_DISPLACED, displaced)
-    if taken("delta") or _VIRTUAL_WORK.search(written.text) is None:
+    said = any(form.search(written.text) is not None for form in (_VIRTUAL_WORK, _VIRTUAL))
+    if taken("delta") or not said:
         return written
     return written.edited([(*match.span(), "δ") for match in _VARIATION.finditer(written.text)])
 
