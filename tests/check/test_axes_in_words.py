@@ -130,6 +130,8 @@ def test_one_letter_may_be_explained_by_a_formula() -> None:
         "x along the slope to the right, y perpendicular to it.",
         "x to the right, y downwards, both from the position of equilibrium.",
         "x to the right, y not downwards.",
+        "x is the angle from the horizontal, y downwards.",
+        "x is the stretch of the horizontal spring, y is vertical.",
     ],
 )
 def test_other_axes_are_not_guessed(said: str) -> None:

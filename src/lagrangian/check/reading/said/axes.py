@@ -73,6 +73,19 @@ _FILLED = re.compile(
     r"|growing|goes|going|directed|zeigt|nach|vers|la|le|to|the)(?!\w)[\s(,:=.-]*+){0,5}",
     re.IGNORECASE,
 )
+_AGAINST = re.compile(
+    r"(?<!\w)(?:from|to|against|with|between|above|below|gegen|gegenüber|zur?|von|unter|mit|avec|sur)[ ]"
+    r"(?:(?:the|der|die|dem|den|la|une?)[ ]|l['’])?\Z",
+    re.IGNORECASE,
+)
+"""What stands in front of an axis from which something is measured: the angle to the horizontal."""
+_THING = re.compile(
+    r"[ ](?:springs?|forces?|dampers?|arms?|walls?|rods?|plates?|bars?|beams?|links?|surfaces?|planes?|lines?|rails?|"
+    r"guides?|tracks?|feder\w*|kraft|kräfte|stange\w*|wand|ebene|führung|schiene)(?!\w)",
+    re.IGNORECASE,
+)
+"""What stands behind a word that says how a thing lies: the horizontal spring."""
+_TURNS = re.compile(r"angles?|winkel\w*|rotations?|drehung|drehwinkel|tilt|turned|gedreht|inclinaison", re.IGNORECASE)
 _PREPOSITION = re.compile(r"(?<!\w)(?:from|at|in|of|on|ab|von|im|des?|depuis|en|du|point|punkt)[ ]\Z", re.IGNORECASE)
 _OTHERWISE = re.compile(
     r"(?<!\w)(?:not|never|nicht|uphill|downhill|hang(?:auf|ab)\w*|berg(?:auf|ab)|slopes?|inclines?|inclined|ramp|"
@@ -188,14 +201,17 @@ def _pieces(sentence: str, own: dict[str, str]) -> Iterator[_Piece]:
     end = 0
     for match in _PIECE.finditer(sentence):
         kind = str(match.lastgroup)
+        before = sentence[max(0, match.start() - 20) : match.start()]
+        if kind in ("level", "plumb") and (_AGAINST.search(before) or _THING.match(sentence, match.end())):
+            made.append(("other", match.group()))
+            continue
         if kind == "word":
             if (piece := _name(match, sentence, own)) is None:
                 continue
             end = match.end()
         else:
-            if kind == "bare" and (
-                not made or made[-1][0] == "other" or not _FILLED.fullmatch(sentence, end, match.start())
-            ):
+            filled = _FILLED.fullmatch(sentence, end, match.start())
+            if kind == "bare" and (not made or made[-1][0] == "other" or not filled):
                 continue
             axis = _BARE[match.group().lower()] if kind == "bare" else _AXES[kind]
             end = match.end()
@@ -217,6 +233,8 @@ def _name(match: re.Match[str], sentence: str, own: dict[str, str]) -> _Piece | 
         if (match.start() > 2 and _BEFORE.search(begins)) or _BEHIND.match(sentence, end):
             return None
         return "letter", own[key(name)]
+    if _TURNS.fullmatch(name):
+        return "other", name
     alone = len(name) == 1 and name not in "aAIyt"
     if not alone or _PREPOSITION.search(sentence[max(0, match.start() - 12) : match.start()]):
         return None
