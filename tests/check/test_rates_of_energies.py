@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
+import sympy as sp
 from test_rounded_terms import ladder
+
+import lagrangian as lg
+from lagrangian.check.verdict import Status
 
 HEAD = (
     "T = 1/2 I psi'^2, I = m l^2/3 + M l^2/9 + (M/3 + mw) l^2 cos(psi)^2, dI/dpsi = -2 (M/3 + mw) l^2 sin(psi) cos(psi)"
@@ -110,3 +116,36 @@ def test_a_written_derivative_by_time_is_no_slope() -> None:
             f"{SHORT}\ndT/dt = I psi' psi'' + 1/2 {rate}\n{ROW.replace('(dI/dpsi)', f'(-{INNER})')}"
         )
         assert not all(f.status.right for f in verdict.findings if f.line.number == 2), rate
+
+
+@cache
+def swing() -> lg.Derivation:
+    """A rod in a hinge with friction and a spring: J θ̈ + c θ̇ + k θ + m g l sin θ = 0."""
+    s = lg.System("swing")
+    theta = s.coordinate("theta")
+    m, l, J, k, c, g = s.parameters("m l J k c g")
+    s.particle(m, at=s.point("A", (l * sp.sin(theta), -l * sp.cos(theta))), name="ball")
+    s.kinetic(J * theta.diff() ** 2 / 2, name="rod")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=theta, name="spring")
+    s.damper(c, deflection=theta, name="hinge")
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    "power", ["E = T + V\n\ndE/dt = P = -c theta'^2", "E = T + V\n\ndE/dt = -c theta'^2", "d(T + V)/dt = -c theta'^2"]
+)
+def test_the_rate_of_a_potential_energy_leaves_it_one(power: str) -> None:
+    """dV/dt beside a V of positions and a T: V is no name of something else, and dT/dt is judged, too."""
+    first, _, rest = power.rpartition("\n\n")
+    head = f"{first}\nT = 1/2 (J + m l^2) theta'^2\nV = 1/2 k theta^2 - m g l cos(theta)\n{rest}\n"
+    rates = "dT/dt = (J + m l^2) theta' theta''\ndV/dt = k theta theta' + m g l sin(theta) theta' = {} theta'\n"
+    row = "(J + m l^2) theta'' + c theta' + k theta + m g l sin(theta) = 0"
+    given = head + rates.format("(k theta + m g l sin(theta))") + row
+    verdict = swing().check(given)
+    assert verdict.right
+    assert {"T", "V"} <= {f.line.kind for f in verdict.findings}
+    assert not any("T + V" in str(note) for note in verdict.notes)
+    for wrong in (given.replace("theta' theta''", "2 theta' theta''"), given.replace("= (k theta", "= (2 k theta")):
+        assert any(f.status is Status.WRONG for f in swing().check(wrong).findings)
+    assert not swing().check(given.replace("-c theta'^2", "c theta'^2").replace("+ c theta'", "- c theta'")).right

@@ -13,6 +13,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.check.reading.prose.changing_words import changing_words
 
 MOTION = "(J + m r² sin²φ)φ'' + m r² sin φ cos φ φ'² - m g r sin φ + b r² sin²φ φ' = 0"
 DRUMS = "J alpha'' + r/2 (m y'' + k y - m g) = 0\nJ beta'' - r/2 (m y'' + k y - m g) = 0"
@@ -137,3 +138,9 @@ def test_a_name_that_is_a_word_of_a_direction_is_a_factor() -> None:
 def test_long_texts_of_such_words_are_read() -> None:
     assert crank().check("at the bar of the arm " * 1500 + f"\n{MOTION}").right
     assert not crank().check("y = r cos φ " + "down " * 5000 + f"\n{MOTION}").mistakes
+
+
+def test_rolling_without_slipping_changes_no_equation() -> None:
+    for words in ("rolling without slipping", "(without sliding)", "it rolls, without skidding"):
+        assert not [*changing_words(f"u = R theta is the way of the disc {words}")]
+    assert [*changing_words("m x'' = F, without the weight")]

@@ -105,10 +105,12 @@ class ProposedChange(Brief):
 
 
 def candidates(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
-    """The changes worth trying for an answer: for its own names if it has any, otherwise for the system's
-    coordinates."""
+    """The changes worth trying for an answer: for its own names if it has any, otherwise for the system's coordinates
+    of which it writes one."""
     new = new_names(truth, lines)
-    yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MAX_CHANGES)
+    written = tuple(frozenset[str]().union(*(line.names for line in lines)))
+    own = (x for x in _reused(truth) if x.plain or not written or any(named(q).startswith(written) for q in x.table))
+    yield from islice(_renamed(truth, new, lines) if new else own, MAX_CHANGES)
 
 
 def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:

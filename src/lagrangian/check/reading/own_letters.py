@@ -164,7 +164,8 @@ def _used_as_names(
     statements: Sequence[Sequence[Tree]], first: Sequence[tuple[Token, int] | None], subjects: Subjects
 ) -> Iterator[str]:
     """The letters of energies that stand alone in an equation with accelerations, D theta'' = …, or whose rate is
-    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is; and determinants, D = |M|."""
+    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is, and of no V of positions beside a T
+    or L, dV/dt = k x x'; and determinants, D = |M|."""
     kinds = [None if x is None or x[1] else energy_of(x[0], subjects.model, lhs=True) for x in first]
     energies = not {"T", "L"}.isdisjoint(kinds)
     for k, (named, sides, kind) in enumerate(zip(first, statements, kinds, strict=True)):
@@ -176,18 +177,18 @@ def _used_as_names(
         states = [undotted(x)[0] for side in sides[1:] for x, _ in names_in(side)]
         if any(x in ("T", "V", "U") and energy_of(x, subjects.model) for x in states):
             continue  # L = T - V
+        placed = kind == "V" and energies and not any(map(subjects.moves, sides[1:]))
         for j, others in enumerate(statements):
             if j == k or not any(map(subjects.accelerates, others)):
                 rated = any(x == written and changing for side in others for x, changing in names_in(side))
                 if j != k and _is_used_for_rate(others, written):
                     yield key(written)
-                if j != k and rated and (kind == "D" or not any(map(_squares_rates, sides[1:]))):
+                if j != k and rated and not placed and (kind == "D" or not any(map(_squares_rates, sides[1:]))):
                     yield key(written)
                 continue
             alone = only_name(others[0])
             used = any(x == written for side in others for x, _ in names_in(side))
-            sloped = kind == "V" and energies and not any(map(subjects.moves, sides[1:]))
-            if sloped and all(n == 1 for side in others for n in _primes_of(written, side)):
+            if placed and all(n == 1 for side in others for n in _primes_of(written, side)):
                 continue  # V' is the slope of an energy
             if used and (alone is None or alone[0] != written):
                 yield key(written)

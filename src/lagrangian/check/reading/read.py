@@ -60,7 +60,7 @@ from lagrangian.check.reading.said.own_deviations import in_deviations
 from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
-from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
+from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values, typed_in
 from lagrangian.check.reading.set_aside import once, without_names_of_rates
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
@@ -168,12 +168,11 @@ def _with_said_values(
     typed = with_starred_names(TracedText(plainer(text)), lines.names.known).text
     latex = answer.notation == "latex"
     names = [u.name for u in answer.unknown if asked is None or u.name in asked]
-    said = said_values(typed, names, _words(lines, typed), latex=latex)
+    said = said_values(typed, names, _words(lines, typed), answer)
 
-    def read(with_values: SaidValues) -> Answer:
-        new = _answer(completed(text, with_values.values, latex=latex), model, place, reading, [])
-        own = range(len(text.rstrip().split("\n")) + 1)  # what is added behind them is no line of the answer
-        return replace(new, lines=tuple(x for x in new.lines if x.kind != "definition" or (x.place.line or 0) in own))
+    def read(values: SaidValues) -> Answer:
+        found = _answer(completed(text, values.values, latex=latex), model, place, reading, [])
+        return replace(typed_in(text, found), notes=(*values.told, *found.notes))
 
     others = (*answer.others, *(partial(read, x) for x in said))
     if near := misspelled(names, model.symbols):
@@ -190,10 +189,9 @@ def _with_said_values(
             found = read(sure)
         except ParseError:
             continue
-        told = [f"'{name}' was read as {value}, as the words say." for name, value in sure.values.items()]
         if any(len(re.findall(r"\w+", value)) > 1 for value in sure.values.values()):  # a single name may be misread
-            return replace(found, notes=(*told, *found.notes))
-        return replace(found, notes=(*told, *found.notes), others=(*found.others, lambda: answer, *others))
+            return replace(found, others=(*found.others, *(partial(read, x) for x in said if x.open and x is not sure)))
+        return replace(found, others=(*found.others, lambda: answer, *others))
     return answer
 
 

@@ -16,11 +16,11 @@ _CHANGES = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _BEHIND = re.compile(
-    r"(?<![\w-])(?:twice|doubled|halved|tripled|negative|negated|less[ ](?:the|that)|without|except|opposite|reversed|"
-    r"\(minus\)|with[ ](?:a[ ])?minus)"
+    r"(?<![\w-])(?:twice|doubled|halved|tripled|negative|negated|less[ ](?:the|that)|except|opposite|reversed|"
+    r"without(?![ ](?:slip|slid|skid|gliding))|\(minus\)|with[ ](?:a[ ])?minus)"
     r"(?![\w-])"
 )
-"""Such words behind the last equals sign of a line."""
+"""Such words behind the last equals sign of a line; what rolls without slipping changes nothing."""
 _SAID_AGAIN = re.compile(
     r"(?<![\w-])(?:half|twice|doubled?|halved|tripled?|less|negative|opposite)(?![\w-])[^.;:=()\n]{1,80}"
     r"(?:,[ ](?:so|i\.e\.|that[ ]is|thus|hence)?[ ]?\w{1,16}[ ]?=(?!=)"

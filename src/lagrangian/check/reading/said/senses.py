@@ -20,11 +20,12 @@ WINDOW = 110
 _UP_A = r"(?:the[ ]|an?[ ])?(?:slope|incline|plane|hill|ramp|track|guide|wall)"
 _ALONE = r"(?:(?<=[(])|(?<=,[ ])|(?<=positive[ ])|(?<=points[ ])|(?<=pointing[ ])|(?<=counted[ ])|(?<=grows[ ]))"
 _END_OF = r"(?=[ ]on\b|[ \t]{0,3}(?:[,;:.)]|$))"
-_WAYS = {
-    "right": r"(?:to|towards?)[ ]the[ ]right|rightwards?|nach[ ]rechts",
-    "left": r"(?:to|towards?)[ ]the[ ]left|leftwards?|nach[ ]links",
-    "up": rf"uphill|upwards?|up[ ]{_UP_A}|hangaufwärts|bergauf|nach[ ]oben|{_ALONE}up{_END_OF}",
-    "down": rf"downhill|downwards?|down[ ]{_UP_A}|hangabwärts|bergab|nach[ ]unten|{_ALONE}down{_END_OF}",
+WAYS = {
+    "right": r"(?:to|towards?)[ ]the[ ]right|rightwards?|nach[ ]rechts|(?:vers[ ]la|à)[ ]droite",
+    "left": r"(?:to|towards?)[ ]the[ ]left|leftwards?|nach[ ]links|(?:vers[ ]la|à)[ ]gauche",
+    "up": rf"uphill|upwards?|up[ ]{_UP_A}|hangaufwärts|bergauf|nach[ ]oben|vers[ ]le[ ]haut|{_ALONE}up{_END_OF}",
+    "down": rf"downhill|downwards?|down[ ]{_UP_A}|hangabwärts|bergab|nach[ ]unten|vers[ ]le[ ]bas"
+    rf"|{_ALONE}down{_END_OF}",
     "ahead": r"forwards?|vorwärts|nach[ ]vorne?",
     "back": r"backwards?|rückwärts|nach[ ]hinten",
     "starboard": r"to[ ]starboard",
@@ -34,8 +35,8 @@ _WAYS = {
 }
 OPPOSITE = {"right": "left", "up": "down", "ahead": "back", "starboard": "port", "clockwise": "counterclockwise"}
 OPPOSITE |= {b: a for a, b in OPPOSITE.items()}
-_WAY = re.compile(r"(?<![\w-])(?:" + "|".join(f"(?P<{k}>{x})" for k, x in _WAYS.items()) + r")(?!\w)", re.IGNORECASE)
-_PIECES = "ght echt left nks up auf oben down ab nten for vor back rück star port clock uhr"
+_WAY = re.compile(r"(?<![\w-])(?:" + "|".join(f"(?P<{k}>{x})" for k, x in WAYS.items()) + r")(?!\w)", re.IGNORECASE)
+_PIECES = "ght echt left nks up auf oben down ab nten for vor back rück star port clock uhr droite gauche haut bas"
 _CUES = frozenset(_PIECES.split())
 """Pieces of the ways, in small letters, of which one stands wherever a way is named."""
 _TOKEN = re.compile(r"(?<![\w\\])\\?(?P<name>[^\W\d]\w{0,23}+)")

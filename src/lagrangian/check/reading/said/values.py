@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from difflib import get_close_matches
 from itertools import islice, pairwise, product
 
@@ -26,11 +27,12 @@ from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.plain.spans import spans
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
+from lagrangian.check.reading.said.axes import said_axes
 from lagrangian.check.reading.said.rates_in_comments import rates_in_comments
 from lagrangian.check.reading.unit_checks import UNITS
 from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, key
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
 
 MOST, MOST_NAMES = 12, 6
 """The most readings that are proposed, and names for which they are sought."""
@@ -117,14 +119,24 @@ class _Item:
 
 @dataclass(frozen=True)
 class SaidValues:
-    """Values of names, as an answer spells them; ``sure`` if its words say so."""
+    """Values of names, as an answer spells them; ``sure`` if its words say so; ``open`` if they leave something
+    open, such as a sign."""
 
     values: dict[str, str]
     sure: bool
+    open: bool = False
+    shown: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def told(self) -> list[str]:
+        """How the names were read, if words say so."""
+        said = {**self.values, **self.shown}.items() if self.sure or self.open else ()
+        return [f"'{name}' was read as {value}, as the words say." for name, value in said]
 
 
-def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool) -> list[SaidValues]:
-    """Return what the sentences of an answer may say about the ``unknown`` names, the likeliest first."""
+def said_values(text: str, unknown: Sequence[str], words: Words, answer: Answer) -> list[SaidValues]:
+    """Return what the sentences of an ``answer`` may say about the ``unknown`` names, the likeliest first."""
+    latex = answer.notation == "latex"
     names = {key(x): x for x in unknown[:MOST_NAMES]}
     found: dict[str, dict[str, bool]] = {name: {} for name in names}
     coordinates = [c.name for c in words.names.model.coordinates]
@@ -138,6 +150,11 @@ def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool)
     if numbered:
         others = {x: v for y in readings if y.sure for x, v in y.values.items()}
         readings.insert(0, SaidValues({**others, **numbered}, True))
+    axes = said_axes(text, unknown, answer, words.names.model)
+    left = len(axes.values) > 1 or not axes.sure
+    for k in reversed(range(len(axes.values))):
+        value, shown = (axes.written(k, latex=x) for x in (latex, False))
+        readings.insert(0, SaidValues(value, axes.sure and k == 0, left, shown))
     return readings
 
 
@@ -156,6 +173,12 @@ def completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
     marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
     spelled = {x: f"\\{x}" if latex and re.match(r"[^\W\d_]*", x)[0] in SPELLED.values() else x for x in values}  # type: ignore[index]
     return text.rstrip() + "".join(f"\n\n{marks[0]}{spelled[x]} = {value}{marks[1]}" for x, value in values.items())
+
+
+def typed_in(text: str, answer: Answer) -> Answer:
+    """The answer to a completed text without the statements that stand behind it."""
+    last = text.count("\n") + 1
+    return replace(answer, lines=tuple(x for x in answer.lines if (x.place.line or 0) <= last))
 
 
 def _readings(found: dict[str, dict[str, bool]]) -> Iterator[SaidValues]:
