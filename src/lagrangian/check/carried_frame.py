@@ -237,10 +237,13 @@ class Carried:
         whole = model.expand(element.kinetic(model))
         still = cast("Any", {c.rate: sp.S.Zero for c in model.coordinates})
         back = cast("Any", {c.rate: -c.rate for c in model.coordinates})
-        turned = cast("sp.Expr", whole.xreplace(back))
         self.T_0 = bounded.expand(cast("sp.Expr", whole.xreplace(still)))
-        self.T_1 = bounded.expand((whole - turned) / 2)
-        self.relative = (whole + turned) / 2 - self.T_0
+        self.T_1: sp.Expr = sp.S.Zero
+        self.relative = whole
+        if self.T_0 != 0:  # else it is at rest where all coordinates are
+            turned = cast("sp.Expr", whole.xreplace(back))
+            self.T_1 = bounded.expand((whole - turned) / 2)
+            self.relative = (whole + turned) / 2 - self.T_0
 
     @property
     def prescribed(self) -> bool:
