@@ -151,3 +151,33 @@ def test_on_a_turning_table_the_wrong_force_is_named(energies: str, right: str, 
     verdict = table().check(answer + rows.replace(right, wrong))
     assert not verdict.right and wrong_lines(verdict) == [4]
     assert "inertia force" in str(verdict) and FORGOTTEN not in told(verdict)
+
+
+STILL = f"{ALONG}\n{ARM}".replace("-(M + m) a", "0").replace("-m a l cos(theta)", "0")
+
+
+@pytest.mark.parametrize(
+    "stated",
+    [
+        "x_A' = a",
+        "v_A = x_A' = a, y_A' = 0",
+        "the wagon has a: v² = (u' + a + l theta' cos(theta))² + (l theta' sin(theta))²",
+        "v_x = u' + a + l theta' cos(theta)\nv_y = l theta' sin(theta)",
+    ],
+)
+def test_a_speed_that_is_stated_wrongly_is_not_called_missing(stated: str) -> None:
+    verdict = wagon().check(f"{stated}\n{STILL}")
+    assert not verdict.right and FORGOTTEN not in told(verdict)
+    assert "is a*t, not a." in told(verdict)
+
+
+def test_a_speed_that_is_right_got_lost() -> None:
+    verdict = wagon().check(f"v_x = u' + a t + l theta' cos(theta)\nv_y = l theta' sin(theta)\n{STILL}")
+    assert not verdict.right and "in your velocities" in told(verdict)
+    assert FORGOTTEN in told(wagon().check(f"v_x = u' + l theta' cos(theta)\nv_y = l theta' sin(theta)\n{STILL}"))
+    assert FORGOTTEN in told(wagon().check(STILL))
+
+
+def test_what_follows_from_a_wrong_speed_is_marked() -> None:
+    verdict = wagon().check(f"x_A' = a\n{STILL}")
+    assert wrong_lines(verdict) == [1] and not any("'x_A' = a'" in str(note) for note in verdict.notes)

@@ -30,6 +30,7 @@ from lagrangian.check.explain.lengths_added import with_lengths_added
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
+from lagrangian.check.explain.prescribed_speeds import with_prescribed_speeds
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.same_residuals import with_same_residuals
 from lagrangian.check.explain.second_choices import fitting
@@ -111,6 +112,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
         verdict, derivation = judged_as_carried(
             derivation, written, given, partial(_as_counted, hint=hint), lambda x, read: _judged(x, read)[1]
         )
+        verdict = with_prescribed_speeds(truth_of(derivation), given, verdict)
         if verdict.right and (hidden := hidden_result(given, verdict)) is not None:
             raise hidden
     else:
@@ -166,8 +168,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
         with suppress(ParseError):
             computed = answer.computed()
             found = check.check_in_numbers(derivation, check.lines_of(computed), hint=hint)
-            wrong = found.status is check.Status.WRONG and not computed.unknown
-            verdict = found if wrong else verdict
+            verdict = found if found.status is check.Status.WRONG and not computed.unknown else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
     told = _told(derivation, verdict, answer) if read else verdict
