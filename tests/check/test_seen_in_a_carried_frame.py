@@ -161,6 +161,7 @@ STILL = f"{ALONG}\n{ARM}".replace("-(M + m) a", "0").replace("-m a l cos(theta)"
     [
         "x_A' = a",
         "v_A = x_A' = a, y_A' = 0",
+        "v_A = a",
         "the wagon has a: v² = (u' + a + l theta' cos(theta))² + (l theta' sin(theta))²",
         "v_x = u' + a + l theta' cos(theta)\nv_y = l theta' sin(theta)",
     ],
@@ -175,7 +176,8 @@ def test_a_speed_that_is_right_got_lost() -> None:
     verdict = wagon().check(f"v_x = u' + a t + l theta' cos(theta)\nv_y = l theta' sin(theta)\n{STILL}")
     assert not verdict.right and "in your velocities" in told(verdict)
     assert FORGOTTEN in told(wagon().check(f"v_x = u' + l theta' cos(theta)\nv_y = l theta' sin(theta)\n{STILL}"))
-    assert FORGOTTEN in told(wagon().check(STILL))
+    for said in ("", "v_A = a t\n", "v_A = g\n"):
+        assert FORGOTTEN in told(wagon().check(said + STILL))
 
 
 def test_what_follows_from_a_wrong_speed_is_marked() -> None:

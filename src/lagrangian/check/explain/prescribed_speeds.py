@@ -54,7 +54,7 @@ def with_prescribed_speeds(truth: Reference, answer: Answer, verdict: Verdict) -
         return verdict
     wrong = [x for x in stated if not any(bounded.expand(x.expr - sign * v) == 0 for v in right for sign in (1, -1))]
     letters = frozenset[sp.Basic]().union(*(v.free_symbols for v in right)) | {time}
-    if any(not x.expr.free_symbols <= letters for x in wrong):
+    if any(not x.expr.free_symbols <= letters for x in wrong) or (not wrong and all(x.alone for x in stated)):
         return verdict
     told = _of_speed(right, wrong[0].expr) if wrong else _of_loss()
     told = [replace(told, element=m.element) if m.name == FORGOTTEN else m for m in verdict.mistakes]
@@ -93,6 +93,9 @@ def _stated(truth: Reference, s: Ingredients, lines: Sequence[AnswerLine]) -> It
         value = truth.expand(line.rhs)
         if line.kind == "equation" and isinstance(line.lhs, sp.Derivative) and not line.lhs.has(*moving):
             if line.lhs.derivative_count == 1 and not bounded.atoms(value, AppliedUndef):
+                yield StatedSpeed(line, value, True)
+        elif line.kind == "definition" and (line.name or "").startswith("v") and not value.has(*s.q, *s.v, *s.a):
+            if not bounded.atoms(value, AppliedUndef):
                 yield StatedSpeed(line, value, True)
         elif line.kind == "definition" and value.has(*s.v) and not value.has(*s.a):
             rest = bounded.expand(put(value, still))
