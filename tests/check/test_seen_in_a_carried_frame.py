@@ -183,3 +183,8 @@ def test_a_speed_that_is_right_got_lost() -> None:
 def test_what_follows_from_a_wrong_speed_is_marked() -> None:
     verdict = wagon().check(f"x_A' = a\n{STILL}")
     assert wrong_lines(verdict) == [1] and not any("'x_A' = a'" in str(note) for note in verdict.notes)
+
+
+def test_a_plain_speed_keeps_what_time_alone_gives() -> None:
+    energy = "T = M v_M^2/2 + m ((u' + a t + l theta' cos(theta))^2 + (l theta' sin(theta))^2)/2"
+    assert "is a*t + u', not a + u'" in told(wagon().check(f"v_M = u' + a\n{energy}"))
