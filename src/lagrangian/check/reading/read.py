@@ -59,7 +59,7 @@ from lagrangian.check.reading.said.mentioned import chosen_names, described_name
 from lagrangian.check.reading.said.own_deviations import in_deviations
 from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
-from lagrangian.check.reading.said.stands_for import with_stated_rates
+from lagrangian.check.reading.said.stands_for import speaks_of_virtual_work, with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
 from lagrangian.check.reading.set_aside import once, without_names_of_rates
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
@@ -395,4 +395,6 @@ def _words(lines: Lines, text: str) -> Words:
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.learn(own, used, text)
     spoken = spoken_words(text, Words(lines.names, own, alone, used, primed))
-    return Words(lines.names, own, alone, used, primed, led_names(text), spoken)
+    words = Words(lines.names, own, alone, used, primed, led_names(text), spoken)
+    words.virtual = speaks_of_virtual_work(text)
+    return words

@@ -145,6 +145,8 @@ class Words:
         """Whether the letter d in front of what moves, dω, is a constant of that name, and no sign of a rate."""
         self.factored_asked = False
         """Whether there was such a letter, without a mark of a rate behind it."""
+        self.virtual = False
+        """Whether the answer speaks of virtual work, so that δx is a displacement even if δ is a name."""
         self.unread: list[ParseError] = []
         """The errors of sentences with an equals sign and names of the system that were not read."""
 
