@@ -48,6 +48,15 @@ def test_the_rate_of_a_cosine() -> None:
     assert "does not belong there" not in said
 
 
+def test_a_term_beside_a_name_is_wrong_as_written() -> None:
+    inertia = "J_0 = m l^2 + m x^2\n"
+    first, second = ROWS.splitlines()
+    named = second.replace("m l^2 theta''", "J_0 theta''")
+    assert "right as written, but J_0 of line 1 is not" in told(f"{inertia}{first}\n{named}")[1]
+    number, said = told(f"{inertia}{first}\n{named.replace(' = F', ' + 2 m x x` theta` = F').replace('`', chr(39))}")
+    assert number == 1 and "right as written" not in said
+
+
 @pytest.mark.parametrize("head", ["lost power 2 D", "2 D", "dissipation: 2 D"])
 def test_twice_a_function(head: str) -> None:
     assert told(f"{head} = b x'^2\n{ROWS}")[0] is None

@@ -204,3 +204,26 @@ def test_displacements_of_a_coordinate_that_is_called_delta(old: str, new: str, 
     verdict = _rudder().check(WORK_OF_DELTA.replace(old, new) if old else WORK_OF_DELTA)
     assert verdict.right is (line == 0), verdict.to_text()
     assert {f.line.number for f in verdict.findings if not f.status.right} == ({line} if line else set())
+
+
+def _pushed_at_an_angle() -> System:
+    sys = System("block and wheel, pushed at an angle delta")
+    x, theta = sys.coordinate("x"), sys.coordinate("theta")
+    m, J, k, delta = sys.parameters("m J k delta")
+    F = sys.input("F")
+    sys.particle(m, at=sys.point("P", (x, 0)))
+    sys.kinetic(J * theta.diff() ** 2 / 2)
+    sys.spring(k, deflection=x - theta)
+    sys.force(F * sp.cos(delta), deflection=x)
+    return sys
+
+
+@pytest.mark.parametrize(
+    ("said", "virtual"),
+    [("Virtual work", True), ("d'Alembert", True), ("virtuelle Arbeit", True), ("small terms", False)],
+)
+def test_displacements_beside_an_angle_delta(said: str, virtual: bool) -> None:
+    rows = "m x'' = F cos δ - k (x - θ)\nJ θ'' = k (x - θ)"
+    verdict = _pushed_at_an_angle().check(f"{said}: (F cos δ - k (x - θ)) δx + k (x - θ) δθ\n{rows}")
+    assert verdict.right
+    assert any("δx as δ x" in str(note) for note in verdict.notes) is not virtual

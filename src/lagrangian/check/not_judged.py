@@ -13,6 +13,7 @@ from lagrangian.check.explain.row_words import is_of_numbers
 from lagrangian.check.lines import lines_of
 from lagrangian.check.reading import Answer, AnswerLine
 from lagrangian.check.verdict import IS_MISSING, AnsweredLine, Finding, Status, Verdict
+from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key, undotted
@@ -251,3 +252,12 @@ def _is_at(number: int, written: str, rows: list[str]) -> bool:
     """Whether a statement begins in the line of which it has the number."""
     begins = _squeezed(written.split("\n")[0])[:8]
     return 0 < number <= len(rows) and begins in _squeezed(rows[number - 1])
+
+
+def hidden_result(answer: Answer, verdict: Verdict) -> ParseError | None:
+    """The error of a sentence behind all right energies and forces that was not read, where no equation of motion was
+    judged: it may be the result."""
+    if any(f.line.kind in ("equation", "left") for f in verdict.findings):
+        return None
+    last = max((f.line.number for f in verdict.findings), default=0)
+    return next((e for e in answer.sentences if e.place is not None and (e.place.line or 0) > last), None)

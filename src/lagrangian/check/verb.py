@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import sympy as sp
@@ -15,6 +15,7 @@ from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.as_typed import as_typed
+from lagrangian.check.carried_frame import judged_as_carried
 from lagrangian.check.closed_loop import only_drives
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.counted import judged_as_counted
@@ -29,6 +30,7 @@ from lagrangian.check.explain.lengths_added import with_lengths_added
 from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.other_components import with_other_components
 from lagrangian.check.explain.parts_of_energies import without_added
+from lagrangian.check.explain.prescribed_speeds import with_prescribed_speeds
 from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.same_residuals import with_same_residuals
 from lagrangian.check.explain.second_choices import fitting
@@ -41,7 +43,7 @@ from lagrangian.check.named_accelerations import with_accelerations
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
-from lagrangian.check.not_judged import rows_left, unjudged_above
+from lagrangian.check.not_judged import hidden_result, rows_left, unjudged_above
 from lagrangian.check.parts_above import with_parts_above
 from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.check.readings_compared import (
@@ -108,10 +110,11 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
             return verdict
         derivation = other
     if isinstance(given, Answer):
-        verdict = judged_as_counted(
-            derivation, given.counted, lambda x: _of_readings(x, given, hint), lambda x: _judged(x, given)[1]
+        verdict, derivation = judged_as_carried(
+            derivation, written, given, partial(_as_counted, hint=hint), lambda x, read: _judged(x, read)[1]
         )
-        if verdict.right and (hidden := _hidden_result(given, verdict)) is not None:
+        verdict = with_prescribed_speeds(truth_of(derivation), given, verdict)
+        if verdict.right and (hidden := hidden_result(given, verdict)) is not None:
             raise hidden
     else:
         verdict = check.check(derivation, given, hint=hint)
@@ -123,13 +126,11 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     return CheckedAnswer(**vars(verdict), model=derivation.model)
 
 
-def _hidden_result(answer: Answer, verdict: check.Verdict) -> ParseError | None:
-    """The error of a sentence behind all right energies and forces that was not read, where no equation of motion was
-    judged: it may be the result."""
-    if any(f.line.kind in ("equation", "left") for f in verdict.findings):
-        return None
-    last = max((f.line.number for f in verdict.findings), default=0)
-    return next((e for e in answer.sentences if e.place is not None and (e.place.line or 0) > last), None)
+def _as_counted(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
+    """The verdict on an answer with the coordinates as it counts them."""
+    return judged_as_counted(
+        derivation, answer.counted, lambda x: _of_readings(x, answer, hint), lambda x: _judged(x, answer)[1]
+    )
 
 
 def _expanded(model: Model) -> Derived | None:
@@ -168,8 +169,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
         with suppress(ParseError):
             computed = answer.computed()
             found = check.check_in_numbers(derivation, check.lines_of(computed), hint=hint)
-            wrong = found.status is check.Status.WRONG and not computed.unknown
-            verdict = found if wrong else verdict
+            verdict = found if found.status is check.Status.WRONG and not computed.unknown else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
     told = _told(derivation, verdict, answer) if read else verdict

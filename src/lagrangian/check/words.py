@@ -7,6 +7,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import sympy as sp
+
+from lagrangian import bounded
 from lagrangian.check.by_letters import called_by_letters
 from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
@@ -142,6 +145,8 @@ def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
 
 
 _NAMED_KINDS = ("definition", "Xi", "T", "V", "L")
+MOST_QUOTIENTS = 400
+"""The most quotients of terms of an equation by those of a name in it."""
 _NAME = re.compile(r"\\?[^\W\d_][\w{}]{0,15}\*?")
 _ENERGY_OF = re.compile(r"(?:∂|(?<![^\W_])d|\\partial|partial)[ ({]{0,2}\\?(?:mathcal[ {]{0,2}|cal[ ])?[LTℒ]\b")
 """A derivative of an energy, which is not carried out."""
@@ -196,9 +201,20 @@ def _named(finding: Finding, findings: Sequence[Finding]) -> str | None:
         name = root.line.text.partition("=")[0].strip()
         called = _ENERGY_OF.search(finding.line.text) if root.line.kind in ("T", "V", "L") else None
         alone = _NAME.fullmatch(name) and re.search(rf"(?<![\w\\]){re.escape(name)}(?![\w'’′])", finding.line.text)
-        if alone or called:
+        if called or (alone and _is_in_name(finding, root.line.expr)):
             return f"right as written, but {name} of line {root.line.number} is not"
     return None
+
+
+def _is_in_name(finding: Finding, value: sp.Expr) -> bool:
+    """Whether the terms that differ in an equation can all be those of a name in it, each with the same factor: what
+    the name gave besides, such as 2 m r ṙ φ̇ of (m r² φ̇)˙, is wrong as it is written."""
+    written = [t for d in finding.differences for t in sp.Add.make_args(bounded.expand(d.written)) if t != 0]
+    parts = sp.Add.make_args(bounded.expand(value))
+    if len(written) * len(parts) > MOST_QUOTIENTS:
+        return True
+    factors = [{t / x for x in parts} for t in written]
+    return not factors or bool(set[sp.Expr].intersection(*factors))
 
 
 def _word(finding: Finding, roots: Sequence[str], where: str) -> str:

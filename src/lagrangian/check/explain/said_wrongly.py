@@ -306,9 +306,9 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
         return replace(
             told(share.of, [share.right], [share.written], (share.right,), (share.written,)), apart=share.ending
         )
-    q, written = plain_speed(q, written) if q.kind == "speed" else (q, written)
+    square, (q, written) = q, plain_speed(q, written) if q.kind == "speed" else (q, written)
     of, right, own = _narrowed(q, q.right if sign > 0 else turned(q.right), written, sign)
-    right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
+    right = moving_part(s, right, own) if q is square and q.kind in ("speed", "kinetic", "translation") else right
     right = _from_its_place(s, right, own) if q.kind in ("position", "height") else right
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()

@@ -42,9 +42,9 @@ def _misses_term(mistake: Mistake) -> bool:
 
 
 def _stands(truth: Reference, mistake: Mistake, written: sp.Expr) -> bool:
-    """Whether the term that is said to be missing is a multiple of what is written."""
+    """Whether the term that is said to be missing is what is written with the other sign."""
     term = next(x for x in mistake.what.parts if isinstance(x, sp.Expr))
-    return bool(bounded.cancel(truth.expand(term) / truth.expand(written)).is_number)
+    return bool(bounded.cancel(truth.expand(term) / truth.expand(written)).is_negative)
 
 
 def _with_values_of_names(truth: Reference, verdict: Verdict) -> Verdict:

@@ -59,7 +59,7 @@ from lagrangian.check.reading.said.mentioned import chosen_names, described_name
 from lagrangian.check.reading.said.own_deviations import in_deviations
 from lagrangian.check.reading.said.running_letters import introduced_letters
 from lagrangian.check.reading.said.senses import stated_senses
-from lagrangian.check.reading.said.stands_for import with_stated_rates
+from lagrangian.check.reading.said.stands_for import speaks_of_virtual_work, with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values, typed_in
 from lagrangian.check.reading.set_aside import once, without_names_of_rates
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
@@ -165,8 +165,7 @@ def _with_said_values(
     if not answer.unknown:
         return answer
     lines = Lines(model)
-    typed = with_starred_names(TracedText(plainer(text)), lines.names.known).text
-    latex = answer.notation == "latex"
+    typed, latex = with_starred_names(TracedText(plainer(text)), lines.names.known).text, answer.notation == "latex"
     names = [u.name for u in answer.unknown if asked is None or u.name in asked]
     said = said_values(typed, names, _words(lines, typed), answer)
 
@@ -397,4 +396,4 @@ def _words(lines: Lines, text: str) -> Words:
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.learn(own, used, text)
     spoken = spoken_words(text, Words(lines.names, own, alone, used, primed))
-    return Words(lines.names, own, alone, used, primed, led_names(text), spoken)
+    return Words(lines.names, own, alone, used, primed, led_names(text), spoken, speaks_of_virtual_work(text))

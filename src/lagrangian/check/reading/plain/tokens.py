@@ -173,9 +173,12 @@ def _is_times_rate(of: str, words: Words) -> bool:
 
 
 def is_varied(word: str, words: Words) -> bool:
-    """Whether a word may hold a virtual displacement: not if the system or the answer has a name δ, nor in δ1."""
-    own = word == VARIATION or _OWN_DELTA.fullmatch(word) is not None
-    return VARIATION in word and not own and not words.is_name(VARIATION)
+    """Whether a word may hold a virtual displacement: not in δ1, nor if the system or the answer has a name δ, unless
+    the word is that of a coordinate and the answer speaks of virtual work."""
+    if VARIATION not in word or word == VARIATION or _OWN_DELTA.fullmatch(word) is not None:
+        return False
+    of = word.removeprefix(VARIATION)
+    return not words.is_name(VARIATION) or (words.virtual and of != word and words.names.changes(of))
 
 
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:

@@ -119,6 +119,7 @@ class Words:
         primed: Iterable[str] = (),
         led: frozenset[str] = frozenset(),
         spoken: frozenset[str] = frozenset(),
+        virtual: bool = False,
     ) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
@@ -145,6 +146,8 @@ class Words:
         """Whether the letter d in front of what moves, dω, is a constant of that name, and no sign of a rate."""
         self.factored_asked = False
         """Whether there was such a letter, without a mark of a rate behind it."""
+        self.virtual = virtual
+        """Whether the answer speaks of virtual work, so that δx is a displacement even if δ is a name."""
         self.unread: list[ParseError] = []
         """The errors of sentences with an equals sign and names of the system that were not read."""
 

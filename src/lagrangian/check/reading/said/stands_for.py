@@ -307,6 +307,11 @@ _DISPLACED = re.compile(
 """A virtual displacement written as a differential, dx or d(xm)."""
 
 
+def speaks_of_virtual_work(text: str) -> bool:
+    """Whether an answer speaks of virtual work or displacements."""
+    return _VIRTUAL.search(text) is not None
+
+
 _WORK_OF_DIFFERENTIALS = re.compile(r"(?<![\w\\/∂])d(?=W[ \t]{0,8}=[ \t]{0,8}(?P<sum>[^\n=]{1,400}))")
 """The d of a virtual work dW = F dx."""
 
@@ -332,7 +337,7 @@ def with_variations(
         ]
         if works and not taken("dW"):
             written = written.edited([(*x.span(), "δ") for x in works])
-        if works or _VIRTUAL.search(written.text) is not None:
+        if works or speaks_of_virtual_work(written.text):
             written = written.sub(_DISPLACED, displaced)
     said = any(form.search(written.text) is not None for form in (_VIRTUAL_WORK, _VIRTUAL))
     if taken("delta") or not said:
