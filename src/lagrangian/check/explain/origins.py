@@ -32,7 +32,7 @@ from lagrangian.model import time
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
-MOST_TERMS = 300
+MOST_TERMS, MOST_OVER_SUMS = 300, 100
 """A part of an equation with more terms is not looked at."""
 LONGEST = 1_500
 """The most operations of an equation with marks."""
@@ -185,9 +185,13 @@ def _parts(marks: ValueMarks, expr: sp.Expr) -> list[PartOfValue]:
     for of in marks.values:
         if of.added in used and not {of.added, of.scale} & marks.lost:
             factor, whole = (cast("sp.Expr", bounded.diff(expr, x).xreplace(marks.plain)) for x in (of.added, of.scale))
-            if factor != 0 and bounded.terms(whole) <= MOST_TERMS:
+            if factor != 0 and bounded.terms(whole) <= (MOST_OVER_SUMS if _divides_by_sums(whole) else MOST_TERMS):
                 found.append(PartOfValue(of, factor, frozenset(sp.Add.make_args(bounded.expand(whole)))))
     return found
+
+
+def _divides_by_sums(expr: sp.Expr) -> bool:
+    return any(x.exp.is_negative and x.base.is_Add for x in bounded.atoms(expr, sp.Pow))
 
 
 def _multiplied(
