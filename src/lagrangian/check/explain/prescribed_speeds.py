@@ -77,10 +77,10 @@ def _from(first: StatedSpeed, verdict: Verdict) -> Verdict:
 
 def _carrying(s: Ingredients) -> Iterator[sp.Expr]:
     """The components of velocities where all coordinates are at rest, as far as the same holds at every position."""
-    still = dict.fromkeys(s.v, 0)
+    still = dict.fromkeys(s.v, sp.S.Zero)
     for body in s.bodies:
         for component in s.velocity(body):
-            v = bounded.expand(put(component, still))
+            v = bounded.expand(sp.sympify(put(component, still)))
             if v != 0 and not s.moves(v):
                 yield v
 

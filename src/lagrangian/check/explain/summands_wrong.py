@@ -64,12 +64,13 @@ def one_wrong_summand(truth: Reference, line: AnsweredLine, named: Sequence[sp.E
     whole, *each = values.reshape(len(values), SETS * PLACES, -1)
     apart = [multiple_of(whole, x) is None for x in each]  # without the line itself, nothing would be left to be wrong
     outside = outside_rows(truth, values)
-    across = {x: y for x, y, part in zip(own, outside[1:], apart, strict=True) if part}
+    across = dict(zip(own, outside[1:], strict=True))
     found = in_factors(truth, outside[0], across)
     plain = [x for rank, x in found if rank == 0 and any(x.factor == number for _, number in NUMBERS)]
     moving = (sp.Derivative, *(u.symbol for u in truth.model.inputs))
     if not plain and (placed := [x for x in named if not x.has(*moving)][:MOST_NAMED]):
         factors = [*placed, *(1 / x for x in placed), *(x / y for x in placed for y in placed if x is not y)]
-        products = {x: y for x, y in across.items() if not any(x in (n, -n) for n in named)}
+        parts = [x for x, part in zip(own, apart, strict=True) if part]
+        products = {x: across[x] for x in parts if not any(x in (n, -n) for n in named)}
         plain = [x for _, x in in_factors(truth, outside[0], products, at_places(truth, factors))]
     return plain[0] if len(plain) == 1 else None

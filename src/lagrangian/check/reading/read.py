@@ -79,13 +79,14 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = (
     r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
+    r"|\\[(\[]|\\begin\{[a-z]{4,12}\*?\}"
     rf"|\bwhere|\bwith|\band|(?<=\s)\((?={NAME}[ \t]*=[ \t]*{NAME}[ \t]*[,)])"
     rf"|(?<=[ \t])[(\[](?=[ \t]?{NAME}[ \t]*=(?![=>])(?![ \t]*[-−]?[\d.,/]{{1,9}}[ \t]?\w{{0,4}}[)\]])"
     r"(?:[^()\[\]=,;:\n]|\([^()=\n]{1,40}\)){1,80}[)\]][.,;]?[ \t]*$)"
 )
 """Where a name that gets a value may stand; also in brackets at the end of a line: (a = cos β)."""
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
-_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
+_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+&?=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])({WORD_LETTER}{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _NAMED = re.compile(
     rf"(?:^|[.:;,][ \t])[^\S\n]*+(?:(?:[^\W\d_]{{2,24}}|\d{{1,3}})[ \t]++){{1,4}}((?>{NAME}))"

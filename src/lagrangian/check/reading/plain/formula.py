@@ -134,7 +134,9 @@ class PlainParser(PlainCalls):
                 if is_matrix(children[0]) and not is_column(children[0]):
                     children = [wrapped("transpose", start, children[0])]
                 continue  # a list in brackets is already a column
-            if only_name(children[0]) == ("e", 0) and len(children) == 1 and not self.words.is_name("e"):
+            squared = self.next.kind == "number" and self.next.text.isdigit()  # e² is the square of a letter
+            alone = only_name(children[0]) == ("e", 0) and len(children) == 1 and not squared
+            if alone and not self.words.is_name("e"):
                 sign = self._sign()
                 exponent = node("signed", power.start, sign, self._postfix())
                 children = [node("call", start, leaf("NAME", "exp", start), exponent)]
