@@ -13,6 +13,7 @@ from itertools import islice
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.combined_rows import (
     NUMBERS,
     WrongTerm,
@@ -68,7 +69,7 @@ def one_wrong_summand(truth: Reference, line: AnsweredLine, named: Sequence[sp.E
     found = in_factors(truth, outside[0], across)
     plain = [x for rank, x in found if rank == 0 and any(x.factor == number for _, number in NUMBERS)]
     moving = (sp.Derivative, *(u.symbol for u in truth.model.inputs))
-    if not plain and (placed := [x for x in named if not x.has(*moving)][:MOST_NAMED]):
+    if not plain and (placed := [x for x in named if bounded.expand(x) != 0 and not x.has(*moving)][:MOST_NAMED]):
         factors = [*placed, *(1 / x for x in placed), *(x / y for x in placed for y in placed if x is not y)]
         parts = [x for x, part in zip(own, apart, strict=True) if part]
         products = {x: across[x] for x in parts if not any(x in (n, -n) for n in named)}

@@ -43,7 +43,7 @@ def with_derivatives(text: TracedText, *, latex: bool = False) -> TracedText:
     edits: list[tuple[int, int, str]] = []
     above: str | None = None
     stems = {m["by"] for m in _PARTIAL.finditer(text.text)}
-    lines = list(re.finditer(r"[^\n]*[^\s][^\n]*", text.text))
+    lines = [x for x in re.finditer(r"[^\n]+", text.text) if x.group().strip()]
     listed, group = dict[int, str](), list[str]()
     for k, line in enumerate(lines):
         if latex and ("\\" in line.group() or "$" in line.group()):

@@ -63,7 +63,7 @@ def blank(text: str, start: int, end: int) -> str:
 
 _BEHIND_FORMULA = re.compile(
     r"(?:(?<=[\^*/]\d)(?<!\./\d)|(?<=['’′²³]))\."
-    r"(?=[ \t]{1,9}[^\W\d][\w/'’′]{0,23}(?:[ \t]{0,3}[-−+*/·^]?[ \t]{0,3}\w{1,8}){0,6}[ \t]{0,9}=(?!=))"
+    r"(?=[ \t]{1,9}[^\W\d][\w/'’′]{0,23}+(?:[ \t]{0,3}+[-−+*/·^]?[ \t]{0,3}+\w{1,8}+){0,6}+[ \t]{0,9}+=(?!=))"
 )
 """The full stop behind a formula, where a statement follows: P = F x' - d s'^2. dE/dt = P; a = π/6. m R + J = 2."""
 _WORDS_BEHIND = re.compile(

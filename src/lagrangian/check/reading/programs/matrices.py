@@ -78,11 +78,14 @@ _BY_TIME = re.compile(r"(?<!\w)d(?P<of>[^\W\d_]\w{0,11}?)(?:/|_)?dt(?!\w)")
 _ORDER = re.compile(r"\bcoordinates[^\S\n][^\n\[\](=]{0,20}[\[(](?P<entries>[\w ,;]{3,200})[\])]")
 """The order of the coordinates in words: generalized coordinates [x; theta]."""
 _LISTED = re.compile(
-    r"(?<![\w\\])(?:\\(?:mathbf|boldsymbol|bm|vec)[ ]?)?[{*]{0,2}(?:q|z|ξ|\\xi)[}*]{0,2}[ \t$]{0,3}&?[=:][ \t$]{0,3}"
+    r"(?<![\w\\])(?:\\(?:mathbf|boldsymbol|bm|vec)[ ]?)?[{*]{0,2}(?P<of>q|z|ξ|\\xi)[}*]{0,2}"
+    r"[ \t$]{0,3}&?[=:][ \t$]{0,3}"
     r"(?:(?:\\left)?[\[(](?P<plain>[^\[\]()=\n]{3,120}?)(?:\\right)?[\])]"
     r"|\\begin\{[bp]?matrix\}(?P<latex>[^=\n]{3,160}?)\\end\{[bp]?matrix\})"
 )
 """The column of the coordinates: q = (θ, s)ᵀ."""
+_NO_LIST = re.compile(r"[-−+/^]|\*|\d[ ]?[^\W\d]|\A[^,;&\s\\]{1,60}\Z")
+"""What is in a formula, and in no list of names: z = (x2 - x1)."""
 LONGEST = 400
 """The most characters of a comment that states an equation."""
 
@@ -114,7 +117,8 @@ def told_order(text: str) -> list[str]:
     """The names of the coordinates in the order in which an answer lists them; none if it does not."""
     if (match := _ORDER.search(text)) is not None:
         return re.findall(_WORD, match["entries"])
-    match = _LISTED.search(text)
+    listed = [m for m in _LISTED.finditer(text) if _NO_LIST.search(m["plain"] or m["latex"]) is None]
+    match = next((m for m in listed if m["of"] == "q"), listed[0] if listed else None)
     return [] if match is None else [x.removeprefix("var") for x in re.findall(_WORD, match["plain"] or match["latex"])]
 
 

@@ -269,7 +269,7 @@ def _senses(axis: Axis, symbol: Any, answer: Answer, model: Model) -> tuple[int,
     if axis[1]:
         return (axis[1],)
     weights = [e.g for e in model.elements if isinstance(e, Gravity) and isinstance(e.g, sp.Symbol)]
-    for line in answer.lines if axis[0] == 1 else ():
+    for line in answer.lines if axis[0] == 1 and symbol is not None else ():
         if (
             weights
             and line.kind in ("equation", "V", "L")

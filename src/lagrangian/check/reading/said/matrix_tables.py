@@ -55,13 +55,13 @@ _REST = re.compile(
 )
 _MASS = re.compile(r"\b(?:mass|inertia)(?:[ ]|-)?matrix|Massenmatrix|matrice (?:de masse|d'inertie)", re.IGNORECASE)
 _LIST = re.compile(
-    r"^[ \t]*+(?P<of>[#*`$\\{}\w(][^\n=+]{0,40}?)[ \t]*[:=]?[ \t*]*\n(?:[ \t]*\n)?"
+    r"^[ \t]*+(?P<of>[#*`$\\{}\w(][^\n=+]{0,40}?)[ \t]*+[:=]?[ \t*]*+\n(?:[ \t]*+\n)?"
     r"(?P<items>(?:[ \t]*(?:[-*•]|\d[.)])[ \t]+[^\n=]{1,400}(?:\n|\Z)){2,6})",
     re.MULTILINE,
 )
 """A line that may be the letter of a column, and a list below it."""
 _ITEM = re.compile(
-    r"^[ \t]*(?:[-*•]|\d[.)])[ \t]+(?:(?P<label>[^\n:|]{1,40}):[ \t]+)?(?P<value>[^\n]+?)[ \t]*[.,;]?[ \t]*$",
+    r"^[ \t]*(?:[-*•]|\d[.)])[ \t]+(?:(?P<label>[^\n:|]{1,40}):[ \t]+)?(?P<value>[^\n]+?)[ \t]*+[.,;]?[ \t]*+$",
     re.MULTILINE,
 )
 _MARKS = re.compile(r"[*#`$]|\\mathbf|\\boldsymbol|\\bm|[{}]|\([^()\n]{0,40}\)")
