@@ -208,7 +208,7 @@ def _pieces(sentence: str, own: dict[str, str]) -> Iterator[_Piece]:
         if kind == "word":
             if (piece := _name(match, sentence, own)) is None:
                 continue
-            end = match.end()
+            end = (_OF_TIME.match(sentence, match.end()) or match).end()
         else:
             filled = _FILLED.fullmatch(sentence, end, match.start())
             if kind == "bare" and (not made or made[-1][0] == "other" or not filled):
@@ -255,7 +255,9 @@ def _assigned(pieces: Sequence[_Piece]) -> dict[str, Axis]:
             pairs = (
                 zip(listed[-n:], beside[1][:n], strict=True) if behind else zip(listed[:n], beside[1][-n:], strict=True)
             )
-            found = {**dict(pairs), **found}
+            for name, axis in pairs:  # the sense of an axis may be said behind it: with y positive downwards
+                above = found.setdefault(name, axis)
+                found[name] = axis if above[0] == axis[0] and not above[1] else above
         if not behind and runs[-1][0] == "axis" and runs[-1][1][0][1] and len(runs) > 1:
             last = [x for x in found if found[x][0] == runs[-1][1][0][0]]
             found |= {x: runs[-1][1][0] for x in last if not found[x][1]}
