@@ -74,7 +74,7 @@ def said(system: lg.Derivation, answer: str) -> list[str]:
     [
         ("M*g*2*a*cos(theta)", "is taken twice as far out"),
         ("M g (2 a) cos(theta)", "is taken twice as far out"),
-        ("2*M*g*a*cos(theta)", "is counted twice"),
+        ("2*M*g*a*cos(theta)", "stands with twice its value"),
         ("M*g*a/2*cos(theta)", "is taken half as far out"),
         ("M*g*0.5*a*cos(theta)", "is taken half as far out"),
         ("1/2*M*g*a*cos(theta)", "counts half"),
