@@ -45,28 +45,29 @@ _WEAK = re.compile(r"\brel(?:ative|\.|ativ)|\bframe\b|mitbewegt|mitgef[üu]hrt|c
 _GROUND, _FRAME = "seen from the ground", "seen from the frame that is carried along"
 
 
+class _OfInertia:
+    """What comes from the inertia forces on one element."""
+
+    of: str
+
+    @property
+    def title(self) -> str:
+        """What they act on."""
+        return f"the inertia force on {self.of}"
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
-class InertiaPotential(Potential):
+class InertiaPotential(_OfInertia, Potential):
     """The potential of the inertia forces on one element."""
 
     of: str = ""
 
-    @property
-    def title(self) -> str:
-        """What they act on."""
-        return f"the inertia force on {self.of}"
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class InertiaForce(GeneralizedForce):
+class InertiaForce(_OfInertia, GeneralizedForce):
     """What the inertia forces on one element do to a coordinate."""
 
     of: str = ""
-
-    @property
-    def title(self) -> str:
-        """What they act on."""
-        return f"the inertia force on {self.of}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,12 +213,13 @@ def _same_motion(truth: Reference, other: Reference) -> bool:
 
 def _seen(model: Model) -> Iterator[SeenSystem]:
     """The systems of `_systems`, whatever their equations are."""
-    moved = [e for e in model.elements if e.ledger == "T*" and Carried(model, e).prescribed]
-    acting = {e.title: Carried(model, e) for e in moved}
-    if not any(x.forces() for x in acting.values()):
+    carried = ((e.title, Carried(model, e)) for e in model.elements if e.ledger == "T*")
+    acting = {name: x for name, x in carried if x.prescribed}
+    forces = {name: x.forces() for name, x in acting.items()}
+    if not any(forces.values()):
         return
     begins = "T* was judged as it is seen in the frame that is carried along: the inertia forces there are in "
-    in_xi = [e for name, x in acting.items() for e in _in_forces(model, name, x.forces())]
+    in_xi = [e for name, x in forces.items() for e in _in_forces(model, name, x)]
     in_v = [e for name, x in acting.items() for e in _in_potential(model, name, x)]
     yield SeenSystem(derive(_at_rest(model, in_xi)), text(begins, "Ξ."))
     if potentials := [e.value for e in in_v if isinstance(e, InertiaPotential)]:
@@ -235,9 +237,9 @@ class Carried:
     def __init__(self, model: Model, element: Element) -> None:
         self.model, self.element = model, element
         whole = model.expand(element.kinetic(model))
-        still = cast("Any", {c.rate: sp.S.Zero for c in model.coordinates})
+        self.still: Any = {c.rate: sp.S.Zero for c in model.coordinates}
         back = cast("Any", {c.rate: -c.rate for c in model.coordinates})
-        self.T_0 = bounded.expand(cast("sp.Expr", whole.xreplace(still)))
+        self.T_0 = bounded.expand(cast("sp.Expr", whole.xreplace(self.still)))
         self.T_1: sp.Expr = sp.S.Zero
         self.relative = whole
         if self.T_0 != 0:  # else it is at rest where all coordinates are
@@ -268,8 +270,7 @@ class Carried:
         total: sp.Expr = sp.S.Zero
         for x in self.model.position(self.element.at):
             x = self.model.expand(x)
-            still = cast("Any", {c.rate: sp.S.Zero for c in self.model.coordinates})
-            speed = cast("sp.Expr", bounded.diff(x, time).xreplace(still))
+            speed = cast("sp.Expr", bounded.diff(x, time).xreplace(self.still))
             if speed.has(*moving):
                 return None
             total += self.element.mass * bounded.diff(speed, time) * _without_time(x)
@@ -294,6 +295,7 @@ def _in_potential(model: Model, name: str, carried: Carried) -> Iterator[Element
     yield from _in_forces(model, name, forces)
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
 class _Standing(Change):
     """No change of coordinates, but every prescribed motion stands still where it is at t = 0."""
 
@@ -333,8 +335,7 @@ class _Stopped(Carrier):
 def _at_rest(model: Model, acting: Sequence[Element]) -> Model:
     """The model of a system that is not carried, with inertia forces."""
     coordinates = model.coordinates
-    change = _Standing(coordinates, coordinates, {c.symbol: c.symbol for c in coordinates})
-    object.__setattr__(change, "model", model)
+    change = _Standing(coordinates, coordinates, {c.symbol: c.symbol for c in coordinates}, model=model)
     builder = _Stopped(model, change, model.name).built()
     for element in acting:
         builder.add(element)
