@@ -150,9 +150,7 @@ def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
 def _with_wrong_names(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with the equations marked that are right by a name of the system alone of which a line above says
     what is wrong: ṡ = b c cos θ θ̇/(2 s), and then c ṡ."""
-    moving = [c.symbol for c in truth.model.coordinates]
-    own = [d for d in truth.model.definitions if d.moving and truth.expand(d.symbol).has(*moving)]  # none prescribed
-    names = {x for d in own for x in (d.symbol, bounded.diff(d.symbol, time))}
+    names = {x for own in truth.placed for x in (own, bounded.diff(own, time))}
     wrong = [
         (f.line.number, f.line.sides[0])
         for f in findings

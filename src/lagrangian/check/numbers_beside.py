@@ -92,8 +92,7 @@ def with_definitions_in_values(truth: Reference, lines: Sequence[AnsweredLine]) 
     A line that has numbers for all parameters, and l, names no letter: l² = 11.68 − 7.68 cos θ, 3.84 sin θ/l. One that
     gives it in rounded numbers, l = 0.5 + 0.94 s, is left.
     """
-    moving = [c.symbol for c in truth.model.coordinates]
-    defined = {d.symbol for d in truth.model.definitions if d.moving and truth.model.expand(d.symbol).has(*moving)}
+    defined = truth.placed
     values = values_of(truth, ()) if defined else {}
 
     def put(expr: sp.Expr) -> sp.Expr:
@@ -101,8 +100,8 @@ def with_definitions_in_values(truth: Reference, lines: Sequence[AnsweredLine]) 
 
     made: list[AnsweredLine] = []
     for line in lines:
-        gives = any(line.expr.coeff(d) in (-1, 1) for d in defined)
-        if not values or gives or not line.expr.has(*defined) or not in_numbers(truth, [line]):
+        holds = bool(values) and line.expr.has(*defined) and not any(line.expr.coeff(d) in (-1, 1) for d in defined)
+        if not holds or not in_numbers(truth, [line]):
             made.append(line)
             continue
         sides = None if line.sides is None else tuple(map(put, line.sides))

@@ -85,6 +85,13 @@ class Reference:
         return frozenset[sp.Basic]().union(*(x.free_symbols for x in moving)) - {time}
 
     @cached_property
+    def placed(self) -> frozenset[sp.Expr]:
+        """The system's own names that its coordinates give, ℓ of a spring; none of a prescribed motion."""
+        moving = [c.symbol for c in self.model.coordinates]
+        own = (d.symbol for d in self.model.definitions if d.moving)
+        return frozenset(x for x in own if self.model.expand(x).has(*moving))
+
+    @cached_property
     def angles(self) -> frozenset[sp.Basic]:
         """The parameters that stand in sines and cosines alone, as α in m g sin α."""
         exprs = [self.T, self.V, *self.Xi, *self.rows]
