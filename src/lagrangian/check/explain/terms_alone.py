@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.own_terms import LINES
-from lagrangian.check.terms.sides import differs, on_side
+from lagrangian.check.terms.sides import WRONG_SIGN, differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -19,7 +19,6 @@ LEFT_OVER = (" differs in other ways as well.", " differ as well.")
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
 WHY = text("Compare this term with its neighbours: its sign, its factors, its powers and its unit.")
-SIGN = " has the wrong sign"
 WHY_CARRIED = text(
     "What carries the body is accelerated, too: m times this acceleration belongs in a sum of forces, and its moment "
     "in a sum of moments about an axis that moves along."
@@ -82,7 +81,7 @@ def with_terms_of_own_forces(verdict: Verdict) -> Verdict:
         return verdict
     [finding], [mistake] = roots, verdict.mistakes
     match mistake.what.parts:
-        case (str(first), sp.Expr() as term, str(last)) if first == "The term " and last.startswith(SIGN):
+        case (str(first), sp.Expr() as term, str(last)) if first == "The term " and last.startswith(WRONG_SIGN):
             pass
         case _:
             return verdict

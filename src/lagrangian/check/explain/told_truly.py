@@ -31,6 +31,7 @@ from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import REASON, parted
 from lagrangian.check.explain.terms_alone import MOST_TOLD, term_mistake, with_terms_of_own_forces
 from lagrangian.check.terms.pieces import partner
+from lagrangian.check.terms.sides import WRONG_SIGN
 from lagrangian.check.verdict import DERIVED, IS_MISSING, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -61,7 +62,7 @@ MADE_IN_STEPS = {2: ("T", "kinetic"), 3: ("V", "potential")}
 """The kind of the line that states what is made in a step, and which energies its parts are."""
 ARMS = ("force_arm", "damper_arm", "gravity_arm")
 """Names of mistakes in what multiplies a force that is there."""
-STANDS, WRONG_SIGN = " stands once", " has the wrong sign"
+STANDS = " stands once"
 """What is said of what is there."""
 SAID = ("definition", "identity")
 """Lines that say what a quantity is."""

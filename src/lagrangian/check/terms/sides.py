@@ -26,6 +26,8 @@ from lagrangian.page.formula import Left
 from lagrangian.read.letters import key
 
 LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
+WRONG_SIGN = " has the wrong sign"
+"""What is said behind a term of which the sign is wrong."""
 _ACCELERATION = re.compile(r"\w(?:dd|ddot)\b")
 """An acceleration as programs call it."""
 _WRITTEN_OUT = re.compile(r"\w[ ]?[-+−*/·(]|\b(?:sin|cos|sqrt|frac)|\d[ ]?[A-Za-z]")
@@ -83,7 +85,7 @@ def differs(d: TermDifference) -> tuple[str | Left, ...]:
         case "extra":
             return ("the term ", d.term, " does not belong there")
         case "sign":
-            return (d.written, " has the wrong sign")
+            return (d.written, WRONG_SIGN)
         case _:
             return (d.written, " should be ", d.term)
 
