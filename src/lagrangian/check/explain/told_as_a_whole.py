@@ -56,9 +56,9 @@ def _with_values_of_names(truth: Reference, verdict: Verdict) -> Verdict:
         return verdict
     numbers = {made.line.number for made in changed.values()}
     told = [term_mistake(made, made.differences[0]) for made in changed.values()]
-    alone = [m for m in verdict.mistakes if m.name == "term_alone" and len(numbers) == len(verdict.mistakes)]
+    alone = all(m.name == "term_alone" for m in verdict.mistakes) and len(told) == len(numbers) == len(verdict.mistakes)
     findings = tuple(changed.get(id(f), f) for f in verdict.findings)
-    return replace(verdict, findings=findings, mistakes=tuple(told) if len(alone) == len(told) else verdict.mistakes)
+    return replace(verdict, findings=findings, mistakes=tuple(told) if alone else verdict.mistakes)
 
 
 def _of_name(values: dict[sp.Basic, sp.Expr], finding: Finding) -> Finding | None:

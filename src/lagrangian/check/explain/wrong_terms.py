@@ -44,9 +44,9 @@ def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     also in equations into which others were put. A definition from which all that is wrong follows goes first."""
     if (divided := with_determinant(truth, lines, verdict)) is not verdict:
         return divided
-    exchanged = with_names_exchanged(truth, lines, verdict)
-    told = exchanged if exchanged is not verdict else _with_terms(truth, lines, verdict)
-    told = with_names_exchanged(truth, lines, told)
+    told = with_names_exchanged(truth, lines, verdict)
+    if told is verdict and (told := _with_terms(truth, lines, verdict)) is not verdict:
+        told = with_names_exchanged(truth, lines, told)
     if told.hint and told.status is Status.WRONG and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
         return _with_definition(truth, lines, verdict) or told
     return with_one_term_beside(truth, lines, told)
