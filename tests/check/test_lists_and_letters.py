@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-import sympy as sp
+from small_systems import pendulum
 
 import lagrangian as lg
 
@@ -23,16 +23,6 @@ def carts() -> lg.Derivation:
     s.particle(m2, at=s.point("B", (x2, 0)), name="second")
     s.spring(k, deflection=x2 - x1, name="spring")
     s.force((s.input("F"), 0), at=first, name="push")
-    return s.derive()
-
-
-@cache
-def pendulum() -> lg.Derivation:
-    s = lg.System("pendulum")
-    phi = s.coordinate("phi")
-    m, l, g = s.parameters("m l g")
-    s.particle(m, at=s.point("P", (l * sp.sin(phi), -l * sp.cos(phi))), name="bob")
-    s.gravity((0, -1), g)
     return s.derive()
 
 
@@ -53,5 +43,5 @@ def test_the_order_in_which_coordinates_are_listed_counts() -> None:
 
 @pytest.mark.parametrize("said", ["V = -m*g*l*cos(phi)", "y = -l*cos(phi)"])
 def test_an_axis_whose_letter_is_not_used_is_read(said: str) -> None:
-    row = "m*l^2*phi'' + m*g*l*sin(phi) = 0"
+    row = "m*l^2*phi'' + b*phi' + m*g*l*sin(phi) = M"
     assert pendulum().check(f"x horizontal, y vertical.\n{said}\nm*x'' = -S*sin(phi)\n{row}").right

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence, Set
+from itertools import takewhile
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import TracedText
@@ -75,11 +76,8 @@ def with_derivatives(text: TracedText, *, latex: bool = False) -> TracedText:
 def _each(lines: Sequence[re.Match[str]], first: int, slopes: Sequence[str]) -> dict[int, str]:
     """The derivatives that several lines go on with, by the numbers of these, the first of which begins with d/dt, and
     the others as well or with no equals sign; none if they are not as many as the ``slopes``."""
-    rest = (
-        x for x in lines[1:] if not (_BEGINS.match(x.group()) or (_TWICE.search(x.group()) and _BARE.match(x.group())))
-    )
-    end = next((x.start() for x in rest), None)
-    count = sum(end is None or x.start() < end for x in lines)
+    written = (x.group() for x in lines[1:])
+    count = 1 + sum(1 for _ in takewhile(lambda x: _BEGINS.match(x) or (_TWICE.search(x) and _BARE.match(x)), written))
     same = 1 < count == len(slopes) == len({*slopes})
     return {first + k: slope for k, slope in enumerate(slopes)} if same else {}
 

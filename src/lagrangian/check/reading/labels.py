@@ -370,9 +370,8 @@ def behind(line: str, numbers: Numbering, words: Words) -> str:
         return line
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
-    led = _AFTER.search(line) is not None  # with what leads to the letter: ..... eq. (i)
-    if numbers.lettered and not led and (match := _LETTER_BEHIND.search(line)) is not None:
-        line = blank(line, match.start(), len(line))
+    if numbers.lettered and (match := _LETTER_BEHIND.search(line)) is not None and _AFTER.search(line) is None:
+        line = blank(line, match.start(), len(line))  # what leads to the letter goes with it below: ..... eq. (i)
     if (far := _FAR_BEHIND.search(line)) is not None and far["tag"] in numbers.tags and "=" in line[: far.start()]:
         line = blank(line, far.start(), len(line))
     for form in (_DOTS, _TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):

@@ -220,9 +220,7 @@ class LatexParser(LatexFractions):
                 if varied or self._moves(of):
                     return wrapped("variation", start, of)
             self.i = at
-        kinds = [x.kind for x in self.tokens[self.i + 1 : self.i + 4]]
-        squared = kinds[:1] == ["number"] or kinds == ["{", "number", "}"]  # the letter e
-        if base == "e" and self.next.kind == "^" and not squared and not self._is_letter(base):
+        if base == "e" and self.next.kind == "^" and not self._is_letter(base) and not self._is_squared():
             self.take()
             return node("call", start, leaf("NAME", "exp", start), self._argument())
         exponent: Node = None

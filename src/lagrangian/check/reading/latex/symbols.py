@@ -63,6 +63,11 @@ class LatexSymbols(Parser):
         """Whether a sign that may be an operator is a name of the system, or one that the answer defines."""
         return self.known(base) or key(base) in self.names.scope.taken
 
+    def _is_squared(self) -> bool:
+        """Whether the exponent that follows is a number alone: then e is a letter."""
+        kinds = [x.kind for x in self.tokens[self.i + 1 : self.i + 4]]
+        return kinds[:1] == ["number"] or kinds == ["{", "number", "}"]
+
     def _of_work(self) -> bool:
         r"""Whether a virtual work is stated: there δ before what moves is no letter, \delta W = \tau\,\delta\delta."""
         sign, work = self.tokens[0].text, self.tokens[min(1, len(self.tokens) - 1)].text

@@ -54,7 +54,7 @@ _BARE: dict[str, Axis] = {
     **{"→": (0, 1), "←": (0, -1), "↑": (1, 1), "↓": (1, -1)},
 }
 """Words for an axis right behind a letter, or behind the word for the axis: y vertical, down."""
-_AXES: dict[str, Axis] = {**{k: _OF_WAYS[k] for k in _OF_WAYS}, **{k: axis for k, (_, axis) in _NAMED.items()}}
+_AXES: dict[str, Axis] = {**_OF_WAYS, **{k: axis for k, (_, axis) in _NAMED.items()}}
 _PIECE = re.compile(
     "|".join(f"(?P<{k}>(?<![\\w-])(?:{WAYS[k]})(?!\\w))" for k in _OF_WAYS)
     + "|"
@@ -188,7 +188,7 @@ def _sentences(text: str) -> Iterator[str]:
     """The sentences with their first characters; a line with an equals sign is read by itself."""
     made: list[list[str]] = [[]]
     for line in text.split("\n"):
-        if not line.strip() or "=" in line or line.lstrip()[0] in "-*•–" or any("=" in x for x in made[-1]):
+        if not line.strip() or "=" in line or line.lstrip()[0] in "-*•–" or "=" in "".join(made[-1][-1:]):
             made.append([])
         made[-1].append(line)
     said = (x for lines in made for x in _SENTENCE.split(" ".join(lines)) if x.strip())
@@ -208,7 +208,7 @@ def _pieces(sentence: str, own: dict[str, str]) -> Iterator[_Piece]:
         if kind == "word":
             if (piece := _name(match, sentence, own)) is None:
                 continue
-            end = (_OF_TIME.match(sentence, match.end()) or match).end()
+            end = _word_end(match, sentence)
         else:
             filled = _FILLED.fullmatch(sentence, end, match.start())
             if kind == "bare" and (not made or made[-1][0] == "other" or not filled):
@@ -224,13 +224,17 @@ def _pieces(sentence: str, own: dict[str, str]) -> Iterator[_Piece]:
     yield from made
 
 
+def _word_end(match: re.Match[str], sentence: str) -> int:
+    """Where a word ends, with (t) behind it."""
+    return (_OF_TIME.match(sentence, match.end()) or match).end()
+
+
 def _name(match: re.Match[str], sentence: str, own: dict[str, str]) -> _Piece | None:
     """A word of a sentence as a letter with an axis, or as another name; None if it is neither."""
     name = match["word"]
     if key(name) in own:
-        begins, end = sentence[max(0, match.start() - 2) : match.start()], match.end()
-        end = of.end() if (of := _OF_TIME.match(sentence, end)) is not None else end
-        if (match.start() > 2 and _BEFORE.search(begins)) or _BEHIND.match(sentence, end):
+        begins = sentence[max(0, match.start() - 2) : match.start()]
+        if (match.start() > 2 and _BEFORE.search(begins)) or _BEHIND.match(sentence, _word_end(match, sentence)):
             return None
         return "letter", own[key(name)]
     if _TURNS.fullmatch(name):

@@ -97,12 +97,15 @@ def with_matrix_tables(
 ) -> TracedText:
     """Return an answer in which the cells of such tables are statements, each on the line of its row; ``letters`` finds
     those of the general form, and ``coordinates`` are in the order of its columns."""
-    form = letters(written.text) if "\n" in written.text else None
+    drawn = "|" in written.text and "--" in written.text
+    tables = list(islice(_TABLE.finditer(written.text), MOST)) if drawn else []
+    lists = list(islice(_LIST.finditer(written.text), MOST))
+    if not tables and not lists:
+        return written
+    form = letters(written.text)
     reader = _Reader(coordinates, form, latex)
-    edits = list(_lists(written.text, reader, form)) if form is not None else []
-    if "|" not in written.text or "--" not in written.text:
-        return written.edited(edits)
-    for match in islice(_TABLE.finditer(written.text), MOST):
+    edits = list(_lists(lists, reader, form)) if form is not None else []
+    for match in tables:
         lines = match.group().rstrip("\n").split("\n")
         if not 2 < len(lines) <= 12 or _RULE.fullmatch(lines[1]) is None or max(map(len, lines)) > LONGEST:
             continue
@@ -117,9 +120,9 @@ def with_matrix_tables(
     return written.edited(edits)
 
 
-def _lists(text: str, reader: _Reader, form: FormLetters) -> Iterator[Edit]:
+def _lists(lists: Sequence[re.Match[str]], reader: _Reader, form: FormLetters) -> Iterator[Edit]:
     """The entries of columns that are listed below their letters, each behind its coordinate or in their order."""
-    for match in islice(_LIST.finditer(text), MOST):
+    for match in lists:
         letter = _MARKS.sub(" ", match["of"]).strip(" :=\t")
         items = list(_ITEM.finditer(match["items"]))
         if letter not in form.columns or len(items) != reader.count or not all(_is_value(x["value"]) for x in items):

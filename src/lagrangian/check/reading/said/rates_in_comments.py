@@ -33,21 +33,17 @@ def rates_in_comments(text: str, unknown: Sequence[str], names: Names) -> dict[s
     """The ``unknown`` names that comments say to be a rate or an acceleration of a coordinate, with it as an answer
     spells it; none of which two comments say different things."""
     wanted = {key(x): x for x in unknown}
-    coordinates = {c.name for c in names.model.coordinates}
+    rates = {c.name + "'" * k for c in names.model.coordinates for k in (1, 2)}
     said: dict[str, set[str]] = {}
     for comment in islice(_COMMENT.finditer(text), MOST):
         for match in _RATED.finditer(comment.group()):
-            meant = _meant(match["of"], match["primes"], names) & _rates(coordinates)
+            meant = _meant(match["of"], match["primes"], names) & rates
             if key(match["name"]) in wanted and len(meant) == 1:
                 said.setdefault(wanted[key(match["name"])], set()).update(meant)
         for name, of in _in_lists(comment.group(), names):
             if key(name) in wanted:
                 said.setdefault(wanted[key(name)], set()).add(of)
     return {name: next(iter(of)) for name, of in said.items() if len(of) == 1}
-
-
-def _rates(coordinates: Sequence[str] | set[str]) -> set[str]:
-    return {c + "'" * k for c in coordinates for k in (1, 2)}
 
 
 def _meant(stem: str, primes: str, names: Names) -> set[str]:
