@@ -102,11 +102,27 @@ def test_a_rounded_number_may_stand_for_a_root_of_roots(head: str) -> None:
 
 
 @pytest.mark.sampled(10)
-@pytest.mark.parametrize("other", ["50.989", "50.991", "50.890", "51.990", "60.990"])
+@pytest.mark.parametrize("other", ["50.987", "50.993", "50.890", "51.990", "60.990"])
 @pytest.mark.parametrize("head", ["", STATED])
 def test_another_digit_is_wrong(head: str, other: str) -> None:
     assert not slope().check(head + ROWS.replace("50.990", other), hint=0).right
-    assert not slope().check(head + ROWS.replace("285.546", "285.547"), hint=0).right
+    assert not slope().check(head + ROWS.replace("285.546", "285.549"), hint=0).right
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(("right", "near"), [("50.990", "50.989"), ("50.990", "50.992"), ("285.546", "285.547")])
+@pytest.mark.parametrize("head", ["", STATED])
+def test_the_last_of_many_digits_may_be_off_and_is_told(head: str, right: str, near: str) -> None:
+    """It is so where numbers were made from rounded numbers."""
+    verdict = slope().check((head + ROWS).replace(right, near))
+    assert verdict.right
+    notes = " ".join(map(str, verdict.notes))
+    assert f"{near} was read as {right}: its last digit is off" in notes
+    assert not head or f", not {near}. Only the last digit is off" in notes
+
+
+def test_the_last_of_few_digits_is_not_off() -> None:
+    assert not slope().check(ROWS.replace("50.990", "50.98"), hint=0).right
 
 
 @pytest.mark.sampled(3)

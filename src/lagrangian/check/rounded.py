@@ -34,6 +34,12 @@ FEWEST_DIGITS = 4
 FEWEST_IN_RIGHT_LINE = 3
 """The fewest significant digits in a line in which every number is a right one or rounded from the right one."""
 
+FEWEST_OFF, MOST_OFF = 5, 2.5
+"""From how many significant digits on the last one of a number in such a line may be off, as one that was made from
+rounded numbers is, and by how many units."""
+
+HALF = 0.5000001
+"""How far a number that is rounded may be off, in units of its last digit."""
 LONGEST = 1_000
 """The largest number of operations of an equation whose coefficients are sought."""
 
@@ -46,6 +52,9 @@ LONGEST_NUMBER = 20
 FAR = 1e-8
 """How far, in parts of their size, numbers may be off that are found at states."""
 
+Sizes = dict[float, float | None]
+"""Numbers that are read as rounded, with what those are read as of which the last digit is off."""
+
 MAX_SOLVED, MAX_ELIMINATED = 4, 3
 """The most coordinates of a system whose equations are solved for the accelerations, or freed from some."""
 
@@ -54,30 +63,34 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     """The lines with rounded numbers replaced by the coefficients that they stand for, and a note about them."""
     if not truth.values:
         return tuple(lines), ()
-    angles, sizes = _rounded_angles(truth, lines)
+    angles, rounded_angles = _rounded_angles(truth, lines)
     lines = [replace(line, expr=cast("sp.Expr", line.expr.xreplace(angles))) for line in lines] if angles else lines
     numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational)}
     rounded = {x: unit for x in numbers if (unit := last_digit(x, FEWEST_DIGITS)) is not None}
     table: dict[sp.Basic, sp.Expr] = {}
     known = coefficients(truth) if rounded else ()
     for x, unit in rounded.items():
-        near = [(abs(value - float(x)), exact) for value, exact in known if abs(value - float(x)) <= 0.5000001 * unit]
+        near = [(abs(value - float(x)), exact) for value, exact in known if abs(value - float(x)) <= HALF * unit]
         if near and all(exact != x for _, exact in near):
             meant = min(near, key=lambda pair: pair[0])[1]
             table |= {x: meant, -x: -meant}
-    sizes |= {float(abs(cast("Any", x))) for x in table}
+    sizes: Sizes = dict.fromkeys(rounded_angles | {float(abs(cast("Any", x))) for x in table})
     put: list[AnsweredLine] = []
     typed = tuple(typed_in_names(lines))
     for line in lines:
         expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)), typed)
         read, more = in_exact_terms(truth, replace(line, expr=expr), typed)
         put.append(read)
-        sizes |= few | more
-    told = sorted(sizes)
-    if not told:
-        return tuple(lines), ()
-    note = text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if len(told) > 1 else 'was'} read as rounded.")
-    return tuple(put), (note,)
+        sizes |= few | dict.fromkeys(more)
+    return (tuple(put), tuple(_told(sizes))) if sizes else (tuple(lines), ())
+
+
+def _told(sizes: Sizes) -> Iterator[Text]:
+    """What is said of numbers that were read as rounded, and of those whose last digit is off."""
+    if told := sorted(x for x, meant in sizes.items() if meant is None):
+        yield text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if len(told) > 1 else 'was'} read as rounded.")
+    for x, meant in sorted((f"{x:.12g}", meant) for x, meant in sizes.items() if meant is not None):
+        yield text(f"{x} was read as {meant:.{len(x.partition('.')[2])}f}: its last digit is off.")
 
 
 def _rounded_angles(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[dict[sp.Basic, sp.Expr], set[float]]:
@@ -134,12 +147,12 @@ def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
 
 
 @lru_cache(maxsize=500)
-def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...]) -> tuple[sp.Expr, frozenset[float]]:
+def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...]) -> tuple[sp.Expr, Sizes]:
     """The one of the right lines that a line is, but for forces of constraints, if every number that differs is rounded
     from what stands there, and the sizes of these numbers; otherwise the line itself and none. Kept: an answer is
     judged several times."""
     if not bounded.atoms(expr, sp.Rational) or bounded.operations(expr) > LONGEST:
-        return expr, frozenset()
+        return expr, {}
     for form, divided in _own_forms(truth, expr):
         own = {k: x for k, x in _sums(form).items() if x}
         forces = {k: x for k, x in own.items() if _is_force(truth, k)}
@@ -151,13 +164,14 @@ def _right_line(truth: Reference, expr: sp.Expr, typed: tuple[sp.Rational, ...])
         surds = any(not isinstance(x, sp.Rational) for x in own.values())  # of cos(θ/2 + π/4), multiplied out
         if not sizes and (typed or surds) and not forces:
             whole = form if divided else _with_sums_apart(expr)
-            found, sizes = within_rounding(whole, typed, _right_lines(truth)) or (found, sizes)
+            found, read = within_rounding(whole, typed, _right_lines(truth)) or (found, sizes)
+            sizes = dict.fromkeys(read)
         if sizes:
-            return sp.Add(*(k * x for k, x in (found | forces).items())), frozenset(sizes)
-    return _right_row_at_states(truth, expr) or (expr, frozenset())
+            return sp.Add(*(k * x for k, x in (found | forces).items())), sizes
+    return _right_row_at_states(truth, expr) or (expr, {})
 
 
-def _right_row_at_states(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, frozenset[float]] | None:
+def _right_row_at_states(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, Sizes] | None:
     """The right equation that a line is whose roots or divisors are written otherwise, √(0.365 − 0.275 cos θ) for a
     distance, if there is only one number for each of its terms with which it is this equation at all states, and those
     of the line are these, exact or rounded; None for another line."""
@@ -178,7 +192,7 @@ def _right_row_at_states(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, froz
             pairs = [(x, sign * float(c)) for x, c in zip(own.values(), numbers / sizes, strict=True)]
             off = [(x, c) for x, c in pairs if abs(_size(x) - c) > FAR * abs(c)]
             if off and all(_is_rounded_from(x, sp.Float(c)) for x, c in off):
-                return sign * right, frozenset(abs(_size(x)) for x, _ in off)
+                return sign * right, dict.fromkeys(abs(_size(x)) for x, _ in off)
     return None
 
 
@@ -196,7 +210,7 @@ def _is_force(truth: Reference, moving: sp.Expr) -> bool:
 
 def _right_sums(
     own: dict[sp.Expr, sp.Expr], rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]
-) -> tuple[dict[sp.Expr, sp.Expr], set[float]]:
+) -> tuple[dict[sp.Expr, sp.Expr], Sizes]:
     """The one of ``rights`` that sums are but for numbers that are rounded, and the sizes of these."""
     if any(last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
         return _divided(own, rights())
@@ -209,14 +223,20 @@ def _right_sums(
         for scale in dict.fromkeys((sp.S.One, sp.S.NegativeOne, *exact)):
             meant = {k: scale * x for k, x in right.items()}
             off = {abs(x): abs(_size(x) - _size(meant[k])) for k, x in own.items() if not _same(x, meant[k])}
-            if off and all(size in units and far <= 0.5000001 * units[size] for size, far in off.items()):
-                return meant, {float(x) for x in off}
-    return own, set()
+            if off and all(size in units and far <= _most_off(size, units[size]) for size, far in off.items()):
+                exact = {abs(own[k]): abs(_size(x)) for k, x in meant.items()}
+                return meant, {float(x): None if far <= HALF * units[x] else exact[x] for x, far in off.items()}
+    return own, {}
+
+
+def _most_off(size: Any, unit: float) -> float:
+    """How far a number with such a last digit may be off in a line that is otherwise right."""
+    return unit * (HALF if last_digit(size, FEWEST_OFF) is None else MOST_OFF)
 
 
 def _divided(
     own: dict[sp.Expr, sp.Expr], rights: Sequence[dict[sp.Expr, sp.Expr]]
-) -> tuple[dict[sp.Expr, sp.Expr], set[float]]:
+) -> tuple[dict[sp.Expr, sp.Expr], Sizes]:
     """The same for a line that was divided by a number, as (454.43 φ̈ − 60 s)/269.80: what it was divided by is sought,
     so that all its numbers become decimals that are right ones or rounded from these."""
     for right in rights:
@@ -226,13 +246,13 @@ def _divided(
             typed = {k: x / scale for k, x in own.items()}
             off = {k: x for k, x in typed.items() if not _same(x, right[k])}
             if off and scale.is_Rational and all(_is_rounded_from(x, right[k]) for k, x in off.items()):
-                return {k: scale * x for k, x in right.items()}, {abs(float(x)) for x in off.values()}
-    return own, set()
+                return {k: scale * x for k, x in right.items()}, dict.fromkeys(abs(float(x)) for x in off.values())
+    return own, {}
 
 
 def _is_rounded_from(number: sp.Expr, value: sp.Expr) -> bool:
     unit = last_digit(abs(number), FEWEST_IN_RIGHT_LINE) if isinstance(number, sp.Rational) else None
-    return unit is not None and abs(_size(number) - _size(value)) <= 0.5000001 * unit
+    return unit is not None and abs(_size(number) - _size(value)) <= HALF * unit
 
 
 def _same(a: sp.Expr, b: sp.Expr) -> bool:

@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.names.spelling import values_of
 from lagrangian.check.reference import Reference
-from lagrangian.check.rounded import FEWEST_DIGITS, coefficients, is_true_number, last_digit
+from lagrangian.check.rounded import FEWEST_DIGITS, HALF, coefficients, is_true_number, last_digit
 from lagrangian.check.verdict import AnsweredLine
 
 NEAR = 1e-3
@@ -39,7 +39,7 @@ def with_stated_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> list
     for number in {abs(x) for line in others for x in bounded.atoms(line.expr, sp.Rational)}:
         unit = last_digit(number, FEWEST_DIGITS)
         near = [(abs(own - float(number)), exact) for own, exact in known]
-        meant = [pair for pair in near if unit and pair[0] <= 0.5000001 * unit]
+        meant = [pair for pair in near if unit and pair[0] <= HALF * unit]
         if meant:
             exact = min(meant, key=lambda pair: pair[0])[1]
             table |= {number: exact, -number: -exact}

@@ -20,6 +20,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.check.rounded import FEWEST_OFF, HALF, MOST_OFF
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -85,6 +86,7 @@ def judged_with_amounts(
     kept: list[AnsweredLine] = []
     wrong: list[Finding] = []
     off: list[float] = []
+    nearly: list[Text] = []
     left = MOST
     lines = [replace(x, expr=sp.S.Zero) if _holds_in_values(truth, x, own, stated) else x for x in lines]
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
@@ -95,6 +97,9 @@ def judged_with_amounts(
         said = [line for line in said if np.isfinite(_amount(truth, line.expr, own))]
         left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
+        if None not in found and None in (_untrue(truth, same, said, x, MOST_OFF) for x in (own, stated) if found):
+            nearly += [text(*x[0].parts, " Only the last digit is off, which was not counted.") for x in found[:1] if x]
+            found = [None]
         if None in found:
             kept += [_as_said(line, [*said, *_links(truth, same, own)]) for line in same]
         elif found and (untrue := found[-1]) is not None:
@@ -105,7 +110,7 @@ def judged_with_amounts(
             kept += same
     kept, told = _without_relations(truth, kept, own)
     verdict = judge(kept)
-    verdict = replace(verdict, notes=(*verdict.notes, *told)) if told else verdict
+    verdict = replace(verdict, notes=(*verdict.notes, *told, *nearly)) if told or nearly else verdict
     if not wrong:
         return verdict
     findings: Sequence[Finding] = [_following(f, wrong, off) for f in verdict.findings]
@@ -233,10 +238,10 @@ def _is_number(line: AnsweredLine) -> bool:
 
 
 def _untrue(
-    truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values
+    truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values, most: float = HALF
 ) -> tuple[Text, float] | None:
     """What letters amount to, where the sides of a line say something else, and by how much these are wrong; None if
-    they are right."""
+    they are right, where a number with many digits may be off by ``most`` units of the last one."""
     numbers = list(_written(lines[0].text))
     stated = list(_stated(truth, lines, said, values))
     sizes = {abs(x.number) for x in stated}
@@ -248,7 +253,9 @@ def _untrue(
         digits = next((n for n in numbers if _same(n.size, abs(x.number))), None)
         near = relative * abs(x.meant)
         if digits is not None:
-            near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
+            many = digits.size >= 10 ** (FEWEST_OFF - 1) * digits.unit
+            rounded = (most if many else HALF) * digits.unit
+            near = rounded if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         near = max(near, EXACT * x.scale) if x.number == 0 else near
         if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
             return _told(x, digits), x.number - x.meant
