@@ -148,11 +148,12 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     )
     rows, offset, within = list[AnswerRow](), 0, within_sums(text)
     open_row: AnswerRow | None = None
+    led = False  # by words and a place, with a colon: the counterweight, at a distance -d cos(phi):
     for line in re.split(r"(?<=\n)", text):
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
         if not bare.strip():
             open_row = open_row if line.strip() else None  # a line with only a comment ends nothing
-        elif open_row is not None and (_continues(open_row.text, bare, offset in within) or _GOES_ON.match(bare)):
+        elif open_row is not None and (_continues(open_row.text, bare, offset in within, led) or _GOES_ON.match(bare)):
             goes_on = _GOES_ON.match(bare)
             bare = blank(bare, *goes_on.span()) if goes_on is not None else bare
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
@@ -166,6 +167,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
             rows.append(AnswerRow(offset, _ended("", stripped, numbers, words)))
             open_row = None if is_sentence(stripped, words) else rows[-1]
+            led = stripped.rstrip().endswith(":") and "=" not in stripped
         offset += len(line)
     rows = [AnswerRow(row.start, opened_list(row.text)) for row in rows]
     split = [
@@ -293,7 +295,7 @@ def _remark(part: str) -> bool:
     return "=" not in part and any(w.lower() in LINKING for w in words) and not FUNCTIONS & set(words)
 
 
-def _continues(above: str, line: str, within: bool) -> bool:
+def _continues(above: str, line: str, within: bool, led: bool) -> bool:
     if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
     if (
@@ -303,7 +305,7 @@ def _continues(above: str, line: str, within: bool) -> bool:
         or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line))
     ):
         return True
-    if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
+    if led or not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
     return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
 
