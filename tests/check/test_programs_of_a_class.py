@@ -134,6 +134,19 @@ def test_what_a_program_of_a_class_computes_is_judged(program: str, old: str, ne
     assert not right(program.replace(old, new))
 
 
+RELATIVE = """def f(t, y, F):
+    x1, x2_r, v1, v2_r = y
+    a1, a2 = np.linalg.solve(np.array([[m1, 0], [0, m2]]), np.array([k*x2_r - F, F - k*x2_r]))
+    return [v1, v2_r, a1, a2 - a1]
+"""
+
+
+def test_what_is_solved_for_may_be_an_absolute_acceleration() -> None:
+    assert right(RELATIVE, "lecture-3b")
+    for old, new in (("a2 - a1", "a2 + a1"), ("a2 - a1", "a2"), ("F - k", "F + k"), ("a1, a2 - a1", "a1 - a2, a2")):
+        assert not right(RELATIVE.replace(old, new), "lecture-3b"), new
+
+
 def test_what_is_not_carried_out_is_told() -> None:
     verdict = derivation("cart-pole").check(CONDITION)
     assert "Lines 3 to 6 were not carried out" in str(verdict)

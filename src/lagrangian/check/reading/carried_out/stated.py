@@ -27,6 +27,7 @@ from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
 from lagrangian.check.reading.carried_out.prescribed_rates import other_rates
 from lagrangian.check.reading.carried_out.rates_said import symbols_said
+from lagrangian.check.reading.carried_out.solved import equations, explicit
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -36,10 +37,7 @@ from lagrangian.check.reading.carried_out.values import (
     Equation,
     Shown,
     Value,
-    checked,
-    cramer,
     listed,
-    scalar,
 )
 from lagrangian.check.reading.carried_out.ways import in_own_coordinates, ways
 from lagrangian.check.reading.carried_out.written import LONGEST_LINE, written
@@ -135,7 +133,7 @@ def carried_out(text: str, model: Model, marks: ValueMarks | None = None, *, ope
         twice = {name for name, of in of_symbols.items() if _ACCELERATES.search(of)}
         if not any(_accelerates(x, twice) for _, x in found):
             in_comments = equations_in_comments(run, names, reader)
-            found += [(line, f"{written(_explicit(run, x))} = 0") for line, entries in in_comments for x in entries]
+            found += [(line, f"{written(explicit(run, x))} = 0") for line, entries in in_comments for x in entries]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_accelerates(x, twice) for _, x in found):
@@ -320,9 +318,9 @@ def _of_states(
     none = True
     for found in chain(functions, _solved_in_the_open(run, reader)):
         none = False
-        yield from _equations(run, found, reader)
+        yield from equations(run, found, reader)
     if none and (found := reader.by_parts()) is not None:
-        yield from _equations(run, found, reader)
+        yield from equations(run, found, reader)
 
 
 def _solved_in_the_open(run: Interpreter, reader: StateReader) -> Iterator[StateFunction]:
@@ -344,52 +342,3 @@ def _solved_in_the_open(run: Interpreter, reader: StateReader) -> Iterator[State
         rates = rates or reader.rates_of(one.name, len(solved))
         if len(rates) == len(solved):
             yield StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-
-
-def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[tuple[int, str]]:
-    """The equations of one function, with their lines: of unknowns that a program solves for, those that it solves.
-
-    Unknowns that are no accelerations are multipliers, by the names that the program or its comments give them.
-    """
-    put = partial(_put, table=found.moving)
-    unknowns: dict[Any, sp.Expr] = {x: rate for rate, x in found.accelerations if x in run.solved}
-    done: set[Any] = set()
-    for rate, value in found.accelerations:
-        if value not in run.solved:
-            yield run.lines.get(value, found.line), f"{written(rate)} = {written(put(_explicit(run, value)))}"
-            continue
-        A, b, x = run.solved[cast("sp.Symbol", value)]
-        if x in done:
-            continue
-        done.add(x)
-        if len(x) > len(found.accelerations) and len(unknowns) == len(found.accelerations):
-            unknowns |= {one: name for one, name in _multipliers(run, x, reader) if one not in unknowns}
-        if not unknowns.keys() >= set(x):
-            raise AbandonedError
-        for k in range(A.shape[0]):
-            left = sp.Add(*[put(_explicit(run, A[k, j])) * unknowns[x[j]] for j in range(A.shape[1])])
-            yield found.line, f"{written(left)} = {written(put(_explicit(run, b[k])))}"
-
-
-def _explicit(run: Interpreter, value: sp.Expr) -> sp.Expr:
-    """A value with unknowns of linear equations, in formulas, written out by Cramer's rule."""
-    for _ in range(DEEPEST):
-        if not (found := value.free_symbols & run.solved.keys()):
-            return value
-        value = checked(value.xreplace({x: cramer(x, *run.solved[x]) for x in run.solved if x in found}))
-    raise AbandonedError
-
-
-def _multipliers(
-    run: Interpreter, x: Sequence[sp.Symbol], reader: StateReader
-) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
-    """Names for the unknowns of a system of linear equations that are no accelerations."""
-    columns = [s.name for s in run.stated if s.name and isinstance(s.value, MatrixBase) and s.value.flat() == list(x)]
-    called = {k: name for column in columns for k, name in reader.in_comments(column).items()}
-    parts = {s.value: s.name for s in run.stated if s.name and isinstance(s.value, sp.Symbol)}
-    for k, one in enumerate(x):
-        yield one, sp.Symbol(run.aliases.get(one) or called.get(k + 1) or parts.get(one) or f"lambda_{k + 1}")
-
-
-def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    return cast("sp.Expr", scalar(value).xreplace(table))
