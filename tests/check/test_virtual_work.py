@@ -130,6 +130,23 @@ def test_the_equations_in_dalemberts_principle_are_judged() -> None:
     assert cart.check("inertia of rotation: -(J + m l^2) theta'' δtheta\n" + ROWS).right
 
 
+def test_dalemberts_principle_alone_holds_all_equations() -> None:
+    """The virtual displacements are independent, so that each of their factors is 0."""
+    masses = "- M x'' δx - m (x'' + l θ'' cos θ - l θ'² sin θ)(δx + l cos θ δθ)"
+    principle = f"(F - b x') δx {masses} + m (l θ'' sin θ + l θ'² cos θ)(-l sin θ δθ) + m g l sin θ δθ - J θ'' δθ = 0"
+    cart = derivation("cart-pole")
+    verdict = cart.check(principle)
+    assert verdict.right and "what multiplies each of them" in str(verdict)
+    for old, new in (
+        ("- b x'", "+ b x'"),
+        ("+ m g", "- m g"),
+        (" - J θ'' δθ", ""),
+        ("δx + l cos θ δθ", "δx"),
+        ("= 0", ""),
+    ):
+        assert not cart.check(principle.replace(old, new)).right, new
+
+
 def test_virtual_works_that_alone_state_the_forces_hold_all_of_them() -> None:
     energies = "T = 1/2 (M + m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\nV = m g l cos(theta)\n"
     cart = derivation("cart-pole")

@@ -22,6 +22,7 @@ from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
 from lagrangian.model.names import moving_symbol
+from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
 MOST, MOST_TERMS = 4, 24
@@ -29,6 +30,10 @@ MOST, MOST_TERMS = 4, 24
 
 ALIKE = 0.5
 """The share of factors that a wrong term has in common with the right one in whose place it stands."""
+
+FACTORS = text(
+    "The virtual displacements are independent: what multiplies each of them was judged as an equation of motion."
+)
 
 _OF_WORK = re.compile(r"[WA](?:_?\w{0,8})")
 
@@ -42,8 +47,10 @@ def judged_with_work(
     are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0, and right ones where no others are stated.
     """
     alone = not any(line.kind == "equation" and accelerates(line.expr) for line in lines)
-    every = ((x, _equations_of(truth, _in_coordinates(truth, lines, x), right=alone)) for x in lines)
+    every = [(x, _equations_of(truth, _in_coordinates(truth, lines, x), right=alone)) for x in lines]
     lines = [x for line, found in every for x in found or [line]]
+    if alone and any(len(found) > 1 for _, found in every):
+        return _with_note(judge(lines))
     works = [k for k, line in enumerate(lines) if _is_work(truth, line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
@@ -58,6 +65,11 @@ def judged_with_work(
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
     wrong = wrong or {k: found for k in works if (found := _copied_forces(truth, written, written[k]))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
+
+
+def _with_note(verdict: Verdict) -> Verdict:
+    """The verdict on the factors of d'Alembert's principle, with what makes each of them an equation of motion."""
+    return replace(verdict, notes=(*verdict.notes, FACTORS))
 
 
 def _in_coordinates(truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine) -> AnsweredLine:
@@ -88,11 +100,10 @@ def _is_place(truth: Reference, expr: sp.Expr) -> bool:
 
 def _equations_of(truth: Reference, line: AnsweredLine, *, right: bool) -> list[AnsweredLine]:
     """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0; with
-    ``right``, the one of a single δξ also if it is right."""
+    ``right``, also the right ones."""
     claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
     moved = displacements(line.expr) if claims else {}
     places = {key(c.name) for c in truth.model.coordinates}
-    right = right and len(moved) == 1
     if not moved or truth.derivation.multipliers or any(key(name) not in places for name in moved.values()):
         return []
     factors = _linear(line.expr, moved)
