@@ -54,7 +54,8 @@ def _is_value(truth: Reference, line: AnsweredLine) -> bool:
     named = line.expr.free_symbols
     if line.kind != "equation" or not named & defined or line.expr.has(AppliedUndef, sp.Derivative):
         return False
-    sizes = [truth.expand(x).xreplace(cast("Any", model.values)) for x in (line.sides or (line.expr, sp.S.Zero))]
+    values: Any = {p: sp.Float(v) for p, v in model.values.items()}  # a name alone is replaced by what stands here
+    sizes = [truth.expand(x).xreplace(values) for x in (line.sides or (line.expr, sp.S.Zero))]
     if not all(x.is_number and x.is_finite for x in sizes):
         return False
     left, right = (float(cast("sp.Expr", x)) for x in sizes)

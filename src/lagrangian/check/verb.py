@@ -58,6 +58,7 @@ from lagrangian.check.readings_compared import (
 )
 from lagrangian.check.reasons_unread import without_unread_reasons
 from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.sums_as_letters import with_sums_as_letters
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
@@ -208,10 +209,9 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
     if not answer.program and len(verdict.open_findings) > 1 and program is not None:
-        try:
+        other = verdict
+        with suppress(ParseError):
             other = _of_readings(derivation, program, hint)
-        except ParseError:
-            other = verdict
         if 0 < len(other.open_findings) < len(verdict.open_findings):
             return other
     if asked:
@@ -219,11 +219,11 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked, answer.mentioned)
-    verdict = with_other_components(
-        truth_of(derivation), decides.lines, _with_origins(derivation, answer, verdict, hint)
-    )
-    told = _claims_checked(truth_of(derivation), told_truly(with_same_residuals(truth_of(derivation), verdict)))
-    return _told(derivation, _apart(derivation, answer, fitting(told)), answer, decides.notes)
+    truth = truth_of(derivation)
+    verdict = with_sums_as_letters(derivation, decides.lines, verdict, partial(check.check, hint=hint))
+    verdict = with_other_components(truth, decides.lines, _with_origins(derivation, answer, verdict, hint))
+    told = fitting(_claims_checked(truth, told_truly(with_same_residuals(truth, verdict))))
+    return _told(derivation, _apart(derivation, answer, told), answer, decides.notes)
 
 
 def _right_reading(derivation: Derived, answer: Answer, own: Sequence[Needed], hint: int) -> check.Verdict | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import fields
 from typing import Any
@@ -14,7 +14,18 @@ from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
 from lagrangian.coordinates.pose import carried_look
 from lagrangian.coordinates.signals import carried_signals
-from lagrangian.model import Builder, Definition, Element, Floating, Frame, GeneralizedForce, Model, Point, is_hard
+from lagrangian.model import (
+    Builder,
+    Definition,
+    Element,
+    Floating,
+    Frame,
+    GeneralizedForce,
+    Model,
+    Parameter,
+    Point,
+    is_hard,
+)
 from lagrangian.page.plain import plain
 
 
@@ -75,10 +86,14 @@ class Carrier:
                 self._quaternion(floating[c.name])
             else:
                 b.coordinate(c.name, description=c.description, unit=c.unit, positive=c.positive, place=c.place)
-        for p in model.parameters:
+        for p in self.parameters():
             b.parameter(p.name, p.value, unit=p.unit, description=p.description, place=p.place)
         for u in model.inputs:
             b.input(u.name, description=u.description, unit=u.unit, place=u.place)
+
+    def parameters(self) -> Sequence[Parameter]:
+        """The parameters of the new description."""
+        return self.model.parameters
 
     def definition(self, definition: Definition) -> sp.Expr:
         """What a definition stands for in the new coordinates."""

@@ -148,8 +148,10 @@ def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
     if term == -right:
         return "sign_of_a_term", text("The term ", term, " has the wrong sign.")
     factors = _factors(term, right)
-    if factors is None and (divisor := power_between(term, right)) is not None:
-        return "divisor_missing", text("In the term ", term, ", one divisor ", divisor, " is missing.")
+    if factors is None and (power := power_between(term, right)) is not None:
+        if any(f.exp.is_negative and f.base == power.as_base_exp()[0] for f in right.atoms(sp.Pow)):
+            return "divisor_missing", text("In the term ", term, ", one divisor ", power, " is missing.")
+        return "foreign_factor", text("In the term ", term, " there is the factor ", power, " too much.")
     if factors is None:
         return "term_replaced", text("The term ", term, " stands where ", right, " belongs.")
     more, less = factors

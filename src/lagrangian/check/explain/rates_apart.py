@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.check.terms.signs import turned
 from lagrangian.page.formula import Left
 
 
@@ -51,13 +52,3 @@ def carried_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
                 ending = " were relative to it." if more is written else " were the whole velocity."
                 return (": ", sign * rest, said, whole, ending)
     return ()
-
-
-def turned(expr: sp.Expr) -> sp.Expr:
-    """The negative of an expression, with the sign inside of its sum: ((R − r) φ̇ − R ψ̇)/r."""
-    factors = list(sp.Mul.make_args(expr))
-    for k, f in enumerate(factors):
-        if isinstance(f, sp.Add) and sp.S.NegativeOne not in factors:
-            factors[k] = sp.Add(*[-x for x in f.args])
-            return cast("sp.Expr", sp.Mul(*factors))
-    return -expr

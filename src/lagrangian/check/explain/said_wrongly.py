@@ -26,7 +26,7 @@ from lagrangian.check.explain.quantities import (
     quantities_of,
 )
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
+from lagrangian.check.explain.rates_apart import carried_apart, rates_apart
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, of_terms, why_of
 from lagrangian.check.explain.search import without_constant
 from lagrangian.check.explain.sense_counted import senses, value_of
@@ -34,6 +34,7 @@ from lagrangian.check.explain.which_said import of_owner_said
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
+from lagrangian.check.terms.signs import turned
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, time

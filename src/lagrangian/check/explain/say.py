@@ -18,6 +18,7 @@ from lagrangian.check.explain.rates_apart import rates_apart
 from lagrangian.check.explain.rotations_said import OMEGA, inertias, of_rotation, why_omega
 from lagrangian.check.hints import capital, sentence
 from lagrangian.check.terms.alike import put_together
+from lagrangian.check.terms.signs import opposed, turned, without_double_sign
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model, RigidBody, Spring
 from lagrangian.page.formula import Left, Text, text
@@ -370,6 +371,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     exprs = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
     if change.kind in ("arm", "omega") and len(exprs) > 1 and all(x.could_extract_minus_sign() for x in exprs):
         values["right"], values["written"] = ((-x,) for x in exprs)  # whichever side it stands on, or sense it has
+    elif change.kind == "omega" and len(exprs) > 1 and opposed(*exprs):
+        values["right"] = (turned(exprs[0]),)
     if change.kind in UNSIGNED and isinstance(change.right, sp.Expr) and change.right.could_extract_minus_sign():
         values["right"] = (_short(-change.right),)  # which sign it has depends on the axis
     values["apart"] = (rates_apart(*exprs) if len(exprs) > 1 else ()) or (".",)
@@ -381,8 +384,7 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
 
 def _short(value: sp.Expr) -> sp.Expr:
     """A length with its root drawn: R + r sin θ for √((R + r sin θ)²); h/cos²θ for h + h tan²θ."""
-    if value.has(sp.tan):
-        value = put_together(value)
+    value = without_double_sign(put_together(value) if value.has(sp.tan) else value)
     roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]
     drawn = {f: sp.powdenest(sp.sqrt(sp.factor(bounded.trigsimp(f.base))), force=True) for f in roots}
     return cast("sp.Expr", value.xreplace(drawn))

@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, put
+from lagrangian.check.terms.signs import turned
 from lagrangian.derive.algebra import OutOfReach
 from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import Body, Damper
@@ -67,7 +68,7 @@ def _in_sense(s: Ingredients, rate: sp.Expr, other: sp.Expr) -> sp.Expr:
     slopes = [[bounded.diff(x, v) for v in s.v] for x in (rate, other)]
     product = sp.Add(*[a * b for a, b in zip(*slopes, strict=True)])
     values = CompiledExpressions([product]).at(States(s.model, 1))[0]
-    return cast("sp.Expr", -other) if np.isfinite(values).all() and values.max() < 0 else other
+    return turned(other) if np.isfinite(values).all() and values.max() < 0 else other
 
 
 def _of_several(alike: list[tuple[Damper, dict[int, sp.Expr], sp.Expr]]) -> Variant:
