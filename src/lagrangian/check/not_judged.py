@@ -139,6 +139,8 @@ class _Above:
 
     def __init__(self, verdict: Verdict, model: Model, answer: Answer) -> None:
         self.judged = {f.line.number for f in verdict.findings if not is_of_numbers(f.line)}
+        kinds = {f.line.kind for f in verdict.findings} & {"T", "V"}  # parts of an energy are added up and judged
+        self.judged |= {x.place.line for x in answer.lines if x.kind in kinds and x.place.line is not None}
         self.numbers = {f.line.number for f in verdict.findings} - self.judged
         self.findings = verdict.findings
         self.whole = "".join(_squeezed(f.line.text) for f in verdict.findings)

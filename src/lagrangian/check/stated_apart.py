@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 from itertools import combinations, permutations
 from typing import cast
@@ -185,22 +185,35 @@ def _terms(truth: Reference, expr: sp.Expr) -> frozenset[sp.Basic]:
 
 
 def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], list[Text]]:
-    """The lines, with all lines of T*, or of V, as one in place of the first if no two have a mass, a moment of inertia
-    or a stiffness in common: each is the energy of a part of the system. With notes that say so."""
+    """The lines, with all lines of T*, or of V, as one if no two have a mass, a moment of inertia or a stiffness in
+    common: each is the energy of a part of the system. It stands in place of the one that is wrong, or of the first.
+    With notes that say so."""
     found, notes = list(lines), list[Text]()
     for kind, letters in (("T", _inertias(truth)), ("V", _stiffnesses(truth))):
         own = [line for line in found if line.kind == kind]
         held = [truth.expand(line.expr).free_symbols & letters for line in own]
         if len(own) < 2 or not all(held) or sum(map(len, held)) > len(set[sp.Basic]().union(*held)):
             continue
-        whole = replace(own[0], expr=sp.Add(*[line.expr for line in own]))
+        at = _only_wrong(truth, own, held)
+        whole = replace(own[at], expr=sp.Add(*[line.expr for line in own]))
         rest = cast("sp.Expr", own[-1].expr - whole.expr)  # a derivative was compared with that of the last part
         found = [_of_the_whole(truth, x, kind, rest) if x.number > own[-1].number else x for x in found]
-        found = [whole if x is own[0] else x for x in found if x is own[0] or not any(x is y for y in own)]
-        at = list(dict.fromkeys(str(line.number) for line in own))
-        where = f"lines {listed_in_words(at)}" if len(at) > 1 else f"line {at[0]}"
+        found = [whole if x is own[at] else x for x in found if x is own[at] or not any(x is y for y in own)]
+        numbers = list(dict.fromkeys(str(line.number) for line in own))
+        where = f"lines {listed_in_words(numbers)}" if len(numbers) > 1 else f"line {numbers[0]}"
         notes.append(text(f"{_CALLED[kind]} is stated in parts; those in {where} were added up."))
     return tuple(found), notes
+
+
+def _only_wrong(truth: Reference, parts: Sequence[AnsweredLine], letters: Sequence[Set[sp.Basic]]) -> int:
+    """Which part of an energy is wrong, by the terms of the right one that have its ``letters``; the first if it is not
+    one alone."""
+    terms = _terms(truth, truth.energies[parts[0].kind])
+    right = [sp.Add(*[cast("sp.Expr", x) for x in terms if x.free_symbols & own]) for own in letters]
+    own = [bounded.expand(truth.expand(line.expr) - x) for line, x in zip(parts, right, strict=True)]
+    moving = {x for c in truth.model.coordinates for x in (c.symbol, c.rate)}
+    wrong = [k for k, x in enumerate(own) if x.has(*moving) and not zero_everywhere(truth, x)]
+    return wrong[0] if len(wrong) == 1 else 0
 
 
 def _of_the_whole(truth: Reference, line: AnsweredLine, kind: str, rest: sp.Expr) -> AnsweredLine:

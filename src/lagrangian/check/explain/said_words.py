@@ -91,7 +91,7 @@ def why_of(kind: str, right: sp.Expr, apart: Sequence[str | Left]) -> Text:
     sign = bool(apart) and str(apart[-1]) == SIGN
     if sign and kind in OF_WAYS:
         return WHY_SIGN
-    if kind in (*OF_TURNED, "along") and _are_exchanged(apart):
+    if kind in (*OF_TURNED, "along", "speed") and _are_exchanged(apart):
         return WHY_EXCHANGED
     turned = any(isinstance(x, sp.Expr) and x.has(sp.sin, sp.cos) for x in apart)
     return WHY_SIGN_OF_RATE if sign and turned and kind in OF_TURNED else WHY[kind]
@@ -113,7 +113,9 @@ STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6
 
 def of_terms(terms: Sequence[sp.Expr]) -> Text | None:
     """What is advised for terms each of which may be twice the product of two parts of a sum, 2 m a b, and not the
-    square of one, m e²; None for others."""
+    square of one, m e²; None for others, and where a sine and a cosine are exchanged."""
+    if _are_exchanged(terms):
+        return None
     powers = [x.as_powers_dict().items() for x in terms]
     cross = all(sum(n == 1 and not x.is_number for x, n in own) > 1 for own in powers)
     return WHY_TERM if cross else None

@@ -130,14 +130,10 @@ class SaidWrongly:
         if self.words.why is not None:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
-        squared = of.kind == "mass" or (str(of.words[0]).startswith("square") and self._has_sum)
+        has_sum = any(isinstance(x, sp.Expr) and x.has(sp.Add) for x in self.words.written)
+        squared = of.kind == "mass" or (str(of.words[0]).startswith("square") and has_sum)
         whole = squared and differ and all(letters_in(x) <= self.own_letters for x in differ)
         return (of_terms(differ) if whole else None) or why_of(of.kind, of.right, self.words.apart)
-
-    @property
-    def _has_sum(self) -> bool:
-        """Whether there is a sum in what is written."""
-        return any(isinstance(x, sp.Expr) and x.has(sp.Add) for x in self.words.written)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:

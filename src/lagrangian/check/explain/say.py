@@ -58,6 +58,10 @@ WHY_PART = {
     5: "Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.",
     6: "Change only this coordinate a little. Does the point where the force acts move, and how far?",
 }
+NO_WORK = (
+    "Change only this coordinate a little. Where what the force or torque acts on does not move, or both its ends move "
+    "together, it does no work, and is not in this Ξ."
+)
 WHY_NUMBER = "Check the factor in front of the mass or moment of inertia."
 WHY_INERTIA = f"{WHY_NUMBER} Is the moment of inertia about the centre of mass?"
 WHY_PRODUCTS = "A sum is squared as a whole, and velocities add before they are squared: (a + b)² = a² + 2 a b + b²."
@@ -230,7 +234,7 @@ KINDS: Mapping[str, KindWords] = {
         "{Brief} comes with a wrong factor.",
         WHY_PART[6],
     ),
-    "arm_added": KindWords("{Site}, where it does no work.", "{Brief} is not right.", WHY_PART[6]),
+    "arm_added": KindWords("{Site}, where it does no work.", "{Brief} is not right.", NO_WORK),
     "rate_left_out": KindWords(
         "{Site} is taken as {written}; it is {right}.", "Something is left out in {brief}.", DAMPER
     ),
