@@ -168,3 +168,33 @@ def test_a_drawn_symmetric_matrix_may_begin_its_rows_at_the_diagonal(last: str) 
     made = without_drawings(TracedText(drawn)).text
     assert re.sub(r"\s+", " ", made).strip() == "M = [a, m l cos θ, 0; m l cos θ, b, d; 0, d, c]"
     assert without_drawings(TracedText(drawn.replace("sym.", ""))).text == drawn.replace("sym.", "")
+
+
+LISTED = """M(q) q'' + n = Q with q = [x; theta]
+M11 = M + m
+M12 = m l cos(theta)
+M21 = m l cos(theta)
+M22 = J + m l^2
+n1 = -m l sin(theta) theta'^2 + b x'
+n2 = -m g l sin(theta)
+Q1 = F
+Q2 = 0"""
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(
+    ("line", "right", "wrong"),
+    [
+        (4, "M21 = m l cos", "M21 = -m l cos"),
+        (4, "M21 = m l cos", "M21 = m l sin"),
+        (3, "M12 = m l cos", "M12 = m cos"),
+        (3, "m l cos", "2 m l cos"),
+    ],
+)
+def test_an_entry_beside_the_diagonal_is_told_where_it_is_stated(line: int, right: str, wrong: str) -> None:
+    cart = derivation("cart-pole")
+    assert cart.check(LISTED).right
+    verdict = cart.check(LISTED.replace(right, wrong))
+    first = verdict.first_wrong
+    assert first is not None and first.line.number == line
+    assert str(verdict.mistakes[0].what).startswith(f"Line {line} is not right: the factor of ")

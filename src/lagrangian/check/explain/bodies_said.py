@@ -103,6 +103,13 @@ def agrees(explanation: Explanation, said: Sequence[SaidWrongly]) -> bool:
     return True
 
 
+def apart_from(right: Sequence[AnsweredLine], wrong: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The right lines that are no rows of an equation of matrices of which another row is wrong: they have the names of
+    all entries."""
+    texts = {(line.number, line.text) for line in wrong}
+    return [x for x in right if (x.number, x.text) not in texts]
+
+
 class BodiesSaid:
     """The wrong definitions of an answer that may be of bodies, ready to be compared with its lines.
 

@@ -42,6 +42,7 @@ FIXED = ("x", "y", "z")
 """What names of fixed axes begin or end with."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
+_ENTRY = re.compile(r"[^\W\d_]{1,4}_?\{?(?P<at>[1-9]{2})\}?")
 _DIGITS = re.compile(r"\d+$")
 _WORD = re.compile(r"[^\W\d_]{3,}")
 
@@ -66,6 +67,12 @@ def is_along(axis: int | None, name: str) -> bool:
     """Whether a name may be that of a component along the ``axis`` of a body: w1 or ω_x is along no other than 0."""
     ends = _split(name)[1][-1:]
     return axis is None or not ends or ends not in "123xyz" or ends in ("123"[axis], "xyz"[axis])
+
+
+def is_entry(place: str, name: str) -> bool:
+    """Whether a name may be that of what stands in a ``place`` of a matrix: M_12 or m12 is in no other than "12"."""
+    found = _ENTRY.fullmatch(name) if place else None
+    return not place or (found is not None and found["at"] == place)
 
 
 def _is_along_fixed_axes(name: str) -> bool:

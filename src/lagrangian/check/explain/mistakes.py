@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beside_lengths import by_lengths
 from lagrangian.check.explain.beyond_lines import beyond
-from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, blamed_also
+from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, apart_from, blamed_also
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
@@ -112,7 +112,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]
-    bodies = BodiesSaid(truth, lines, (*true, *right), wrong_rates(truth, wrong))
+    bodies = BodiesSaid(truth, lines, apart_from((*true, *right), wrong), wrong_rates(truth, wrong))
     pool = pool_of(truth)
     pieces = WrittenPieces(pool, lines)
     if (blamed := bodies.of_all(findings, wrong)) is not None:

@@ -340,6 +340,12 @@ def _of_coordinates(s: Ingredients) -> Iterator[Sayable]:
         words = ("factor of ", c.acceleration, " in the equation of ", c.symbol)
         for adds in (_half_square(mass, c.rate), _force(mass * c.acceleration, only, c.acceleration)):
             yield Sayable("mass", None, words, mass, adds, c.name)
+        for j, other in enumerate(s.coordinates):
+            entry = s.expand(s.derivation.mass_matrix[i, j])
+            if i != j and entry != 0:
+                words = ("factor of ", other.acceleration, " in the equation of ", c.symbol)
+                adds = _force(entry * other.acceleration, only, other.acceleration)
+                yield Sayable("mass", None, words, entry, adds, c.name, entry=f"{i + 1}{j + 1}")
         words = ("generalized momentum of ", c.symbol)
         yield Sayable("momentum", None, words, bounded.diff(s.T, c.rate), lambda _: Effect(), c.name)
         damping = -sp.Add(*[s.shares(d).get(i, sp.S.Zero) for d in s.acting if isinstance(d, Damper)])

@@ -13,21 +13,23 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.apart import beside, folded, moving_part, rescales, told_apart
 from lagrangian.check.explain.dampers_said import damper_share
-from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_along, is_meant, kinds_of, owner_of
+from lagrangian.check.explain.meant import (
+    PART_OF,
+    TRIVIAL,
+    is_about_centre,
+    is_along,
+    is_entry,
+    is_meant,
+    kinds_of,
+    owner_of,
+)
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.plain_speeds import plain_speed
-from lagrangian.check.explain.quantities import (
-    LEVEL,
-    SIGNED,
-    Effect,
-    Sayable,
-    Sayables,
-    accelerations_of,
-    quantities_of,
-)
+from lagrangian.check.explain.quantities import LEVEL, SIGNED, Sayables, accelerations_of, quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, of_terms, why_of
+from lagrangian.check.explain.sayable import Effect, Sayable
 from lagrangian.check.explain.search import without_constant
 from lagrangian.check.explain.sense_counted import senses, value_of
 from lagrangian.check.explain.which_said import of_owner_said
@@ -213,14 +215,14 @@ def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool
     for b in truth.model.bodies if kinds is not None else ():
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
-    found = [k for k in found if _is_meant(every[k].kind, name, turned, parts)]
-    found = [k for k in found if is_along(every[k].axis, name)]
+    found = [k for k in found if _is_meant(every[k], name, turned, parts)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
 
-def _is_meant(kind: str, name: str, turned: bool, parts: bool) -> bool:
-    return kind == "along" if turned else (parts and kind in PART_OF) or is_meant(kind, name)
+def _is_meant(q: Sayable, name: str, turned: bool, parts: bool) -> bool:
+    meant = q.kind == "along" if turned else (parts and q.kind in PART_OF) or is_meant(q.kind, name)
+    return meant and is_along(q.axis, name) and is_entry(q.entry, name)
 
 
 def _is_place(truth: Reference, line: AnsweredLine) -> bool:

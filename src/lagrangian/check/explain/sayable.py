@@ -44,6 +44,8 @@ class Sayable:
     """The other elements of which it is, too."""
     axis: int | None = None
     """Along which axis of a body it is a component, from 0."""
+    entry: str = ""
+    """The row and the column of the mass matrix in which it stands, "12", off its diagonal."""
 
 
 def pushing(force: sp.Expr, slopes: Sequence[sp.Expr]) -> Effect:
