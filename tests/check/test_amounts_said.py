@@ -252,3 +252,35 @@ def test_a_relation_of_parameters_does_not_hold_for_letters() -> None:
     assert not swing().check(f"4 l = 9 a\n{answer}").right
     assert not swing().check(f"4 l = 8 a\n{ROW}").right
     assert not swing().check("4 l = 9 a").right
+
+
+def test_the_value_of_a_product_with_an_index_is_no_name_of_its_own() -> None:
+    """m₂L² beside m₂L = 48 is m₂ L², and not 48²."""
+    model = """
+    name = "pendulum"
+    [coordinates]
+    phi = "rod"
+    [parameters]
+    m2 = "60 kg"
+    L = "0.8 m"
+    J = "6 kg*m^2"
+    g = "9.81 m/s^2"
+    [points]
+    P = ["L*sin(phi)", "-L*cos(phi)"]
+    [[rigid_body]]
+    mass = "m2"
+    inertia = "J"
+    at = "P"
+    angle = "phi"
+    [[gravity]]
+    direction = [0, -1]
+    """
+    pendulum = loads(
+        model.replace('    angle = "phi"\n', '    frame = "rod"\n').replace(
+            "    [points]", '    [[frame]]\n    name = "rod"\n    angle = "phi"\n    [points]'
+        )
+    ).derive()
+    written = "m₂L = 48,  m₂L² + J = 44.4\n44.4 φ'' + 470.88 sin φ = 0"
+    assert pendulum.check(written).right
+    assert not pendulum.check(written.replace("= 44.4\n", "= 45.4\n")).right
+    assert not pendulum.check(written.replace("= 48", "= 49")).right

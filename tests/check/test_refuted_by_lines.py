@@ -142,7 +142,9 @@ def test_a_number_computed_with_a_stated_rounded_sine_is_right() -> None:
     assert check_answer(slope(), f"{stated}3 x'' = F - 10.065").right
     for wrong in ("3 x'' = F - 10.075", "3 x'' = F + 10.065", "3 x'' = F - 10.065 x"):
         assert not check_answer(slope(), stated + wrong).right, wrong
-    assert not check_answer(slope(), "3 x'' = F - 10.065").right
+    assert "its last digit is off" not in str(check_answer(slope(), f"{stated}3 x'' = F - 10.065"))
+    assert "10.065 was read as 10.066: its last digit is off" in str(check_answer(slope(), "3 x'' = F - 10.065"))
+    assert not check_answer(slope(), "3 x'' = F - 10.062").right
 
 
 @cache

@@ -48,6 +48,14 @@ _LEADERS = re.compile(r"(?<=[\w)\]}'’′²³\u0307\u0308])[ \t]{1,9}(?:\.[ \t]
 """A row of dots that leads to nothing."""
 
 
+_CIRCLED = re.compile(r"[①-⑳]")
+
+
+def with_plain_numbers(written: TracedText) -> TracedText:
+    """Return an answer in which numbers of equations in circles stand in brackets: ① as (1)."""
+    return written.sub(_CIRCLED, lambda m: f"({ord(m.group()) - ord('①') + 1})")
+
+
 def without_leaders(written: TracedText) -> TracedText:
     """Return an answer without the dots behind equations and the numbers to which they lead, which are no factors."""
     text = written.text

@@ -11,7 +11,13 @@ from lagrangian.check.reading.arguments import with_own_functions, with_primes_a
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.canonical import with_routhian
 from lagrangian.check.reading.characters import LATEX
-from lagrangian.check.reading.copied import with_typed_arrays, without_copying, without_leaders, without_proved
+from lagrangian.check.reading.copied import (
+    with_plain_numbers,
+    with_typed_arrays,
+    without_copying,
+    without_leaders,
+    without_proved,
+)
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.declared_slopes import with_declared_slopes, with_spelled_slopes
 from lagrangian.check.reading.defined_functions import is_defined_by_one, with_slopes_of_definitions
@@ -153,7 +159,9 @@ _ROUND_BY_TIME = re.compile(
 
 def _copied(text: str, notes: dict[str, None]) -> TracedText:
     """The text of an answer without what copying, drawing and a formula editor leave in it."""
-    plain = without_copying(with_typed_arrays(without_leaders(without_proved(without_star_math(TracedText(text))))))
+    plain = without_copying(
+        with_typed_arrays(without_leaders(without_proved(without_star_math(with_plain_numbers(TracedText(text))))))
+    )
     plain = with_whole_numbers(without_intervals(plain), notes)
     plain = plain.sub(_STAR_BELOW, lambda m: f"_{{{m['sign'] or m['within']}}}")
     plain = plain.sub(_SIGN_BELOW, lambda m: _below(m["within"] or m["alone"] or m["sign"], latex="\\" in text))

@@ -99,7 +99,7 @@ _LINKED = (
     "|(?:I|we)[ ](?:have|get|find|obtain|write|see)"
     "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 )
-_WITH = "con|com|met|med|dove|donde|onde|waarbij"
+_WITH = "con|com|met|med|dove|donde|onde|waarbij|y|og|och|en"
 """How other languages link statements, in words that may be names of the system or products of these."""
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit|(?P<foreign>{_WITH}))(?=[\s,:])"
 _MEANING = re.compile(r"(?:with|where|wobei|mit|avec|où|soit|con|com|met|med|dove|donde|onde|waarbij)\b")

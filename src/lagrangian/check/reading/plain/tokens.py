@@ -209,7 +209,7 @@ def _parts(word: str, source: Source, start: int, words: Words) -> Iterator[Answ
     called = bool(re.match(r"\s*[\w(\[^²³√]|\s*\*\*", source.text[end : end + 8]))
     at = start
     for part in words.parts(word, source, start, called=called):
-        kind = "number" if part.isdigit() else "name"
+        kind = "number" if part.isdecimal() else "name"  # ① is a digit and no number
         yield AnswerToken(kind, part, at, at + len(part))
         at += len(part)
 

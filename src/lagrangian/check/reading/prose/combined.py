@@ -3,6 +3,7 @@
 cos * (horizontal) + sin * (vertical):          m x'' cos(theta) + … = …  below it
 cos(theta)·(1) - sin(theta)·(2):
 (I) + (II):  m1 x1'' + m2 x2'' = F              its label is taken off, where it stands on the line
+(1) - (3)  m1 x1'' = F - c x2'                  so is one of numbers that equations have
 """
 
 from __future__ import annotations
@@ -14,6 +15,10 @@ from lagrangian.check.reading.prose.words import Words, function_of
 
 _LINE = re.compile(r"^[^=\n]{3,120}$", re.MULTILINE)
 _LABEL = re.compile(r"^[^=:\n]{3,60}:(?=[ \t][^\n]*=)", re.MULTILINE)
+_NUMBERS = re.compile(
+    r"^[ \t]{0,20}\(\d{1,2}\)(?:[ \t]?[-+−–][ \t]?\(\d{1,2}\)){1,3}[ \t]+(?=[^\n=:]{2,300}=)", re.MULTILINE
+)
+"""Numbers of equations that are added or subtracted, in front of what this gives."""
 _NAMED = re.compile(r"(?<![^\s*·×+−(-])\((?P<said>[^()=+*/^\n]{1,40})\)")
 _NUMBER = re.compile(r"[ \t]?(?:\d{1,2}[a-z]?|[IVX]{1,4}|[A-Z]|\*{1,3})[ \t]?")
 _TIMES = re.compile(r"[*·×]")
@@ -33,6 +38,13 @@ def without_combinations(text: str, words: Words) -> str:
             text = blank(text, *match.span())
     for match in [m for m in _LABEL.finditer(text) if _combines(m.group(), words)]:
         text = blank(text, *match.span())
+    for match in list(_NUMBERS.finditer(text)):
+        numbers = re.findall(r"\d+", match.group())
+        if all(
+            re.search(rf"^[ \t]{{0,20}}\({n}\)[ \t]+[^-+−– \t]|\({n}\)[ \t.]{{0,20}}$", text, re.MULTILINE)
+            for n in numbers
+        ):
+            text = blank(text, *match.span())
     return text
 
 

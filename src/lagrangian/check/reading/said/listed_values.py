@@ -87,6 +87,7 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
 
 
 _NUMBER = re.compile(r"[ \t]*+([-−]?\d{1,9}(?:[.,]\d{1,12})?)(?![\w.,]*\d)")
+_LETTER = re.compile(r"[^\W\d_₀-₉](?:_?[\d₀-₉]{1,2})?")
 LONGEST_PRODUCT = 4
 """The most letters of a product whose value is given."""
 ROUNDED = 0.005
@@ -95,10 +96,11 @@ ROUNDED = 0.005
 
 def is_value_of_product(name: str, text: str, end: int, values: Callable[[str], float | None]) -> bool:
     """Whether what stands behind a name up to ``end``, its equals sign, is the value of the product of its letters,
-    which are parameters of the system: Me = 0.18."""
-    if not 1 < len(name) <= LONGEST_PRODUCT or not name.isalpha() or values(name) is not None:
+    which are parameters of the system: Me = 0.18, m₂L = 48."""
+    letters = _LETTER.findall(name)
+    if not 1 < len(letters) <= LONGEST_PRODUCT or "".join(letters) != name or values(name) is not None:
         return False
-    factors = [values(x) for x in name]
+    factors = [values(x) for x in letters]
     number = _NUMBER.match(text, end)
     if number is None or any(x is None or isnan(x) for x in factors):
         return False
