@@ -221,7 +221,7 @@ def slope() -> Derivation:
         ("m x'' + k x = 8.29", False),
         ("4 x'' + 60 x = 8.29", False),
         ("2 x'' + 30 x = 8.2918703", False),
-        ("2 x'' + 30 x = 8.2917", False),
+        ("2 x'' + 30 x = 8.2914", False),
         ("2 x'' + 30 x = 17.7819", False),
         ("2 x'' + 8.2918 x = 30", False),
         ("m x'' + k x = 8.2918", False),
