@@ -254,6 +254,9 @@ def _untrue(
         near = relative * abs(x.meant)
         if digits is not None:
             many = digits.size >= 10 ** (FEWEST_OFF - 1) * digits.unit
+            many = (
+                many and abs(x.meant / digits.unit - round(x.meant / digits.unit)) > EXACT * digits.size / digits.unit
+            )
             rounded = (most if many else HALF) * digits.unit
             near = rounded if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         near = max(near, EXACT * x.scale) if x.number == 0 else near
