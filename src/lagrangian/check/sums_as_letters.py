@@ -7,12 +7,13 @@ what is wrong in it is a factor, a power or a divisor. What is found is told wit
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeVar, cast
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.coordinates.renamed import each_formula
 from lagrangian.check.explain.wrong_terms import VAGUE
 from lagrangian.check.reference import truth_of
 from lagrangian.check.verdict import AnsweredLine, Mistake, Status, Verdict, keys_of
@@ -52,7 +53,7 @@ class Lettered:
 
     def line(self, line: AnsweredLine) -> AnsweredLine:
         """A line of an answer in these letters."""
-        return _with_formulas(line, lambda x: cast("sp.Basic", x.xreplace(self.put)), lambda x: x)
+        return each_formula(line, lambda x: cast("sp.Basic", x.xreplace(self.put)))
 
     def told(self, value: T) -> T:
         """What is told of such lines, with the sums written out."""
@@ -63,7 +64,7 @@ class Lettered:
                 said = said.replace(name, of)
             return said
 
-        return _with_formulas(value, lambda x: cast("sp.Basic", x.xreplace(self.sums)), words)
+        return each_formula(value, lambda x: cast("sp.Basic", x.xreplace(self.sums)), words)
 
 
 def with_sums_as_letters(derivation: Derived, lines: Sequence[AnsweredLine], verdict: Verdict, judge: Judge) -> Verdict:
@@ -126,21 +127,6 @@ def _says_values(lettered: Lettered, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer says what one of the parameters is."""
     names = {str(p) for p in lettered.put}
     return any(x.kind in ("given", "definition") and x.name in names for x in lines)
-
-
-def _with_formulas(value: T, put: Callable[[sp.Basic], sp.Basic], words: Callable[[str], str]) -> T:
-    """Words and formulas, however they are nested, with something put in place of every formula and word."""
-    found: Any = value
-    if isinstance(value, sp.Basic):
-        found = put(value)
-    elif type(value) is str:  # and no status, which is one of several words
-        found = words(value)
-    elif isinstance(value, tuple):
-        found = tuple(_with_formulas(x, put, words) for x in value)
-    elif is_dataclass(value) and not isinstance(value, type):
-        own = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
-        found = replace(value, **{name: _with_formulas(x, put, words) for name, x in own.items()})
-    return cast("T", found)
 
 
 # -- the system in these letters --------------------------------------------------------------------------------------

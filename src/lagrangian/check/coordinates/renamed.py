@@ -51,13 +51,17 @@ class OwnNames:
         return each_formula(value, lambda x: cast("sp.Basic", x.xreplace(self.back)))
 
 
-def each_formula(value: T, put: Callable[[sp.Basic], sp.Basic]) -> T:
-    """Words and formulas, however they are nested, with something put in place of every formula."""
+def each_formula(value: T, put: Callable[[sp.Basic], sp.Basic], words: Callable[[str], str] | None = None) -> T:
+    """Words and formulas, however they are nested, with something put in place of every formula, and of all ``words``
+    if it is given."""
     found: Any = value
     if isinstance(value, sp.Basic):
         found = put(value)
+    elif words is not None and type(value) is str:  # and no status, which is one of several words
+        found = words(value)
     elif isinstance(value, tuple):
-        found = tuple(each_formula(x, put) for x in value)
+        found = tuple(each_formula(x, put, words) for x in value)
     elif is_dataclass(value) and not isinstance(value, type):
-        found = replace(value, **{f.name: each_formula(getattr(value, f.name), put) for f in fields(value) if f.init})
+        own = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
+        found = replace(value, **{name: each_formula(x, put, words) for name, x in own.items()})
     return cast("T", found)
