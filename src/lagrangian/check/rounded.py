@@ -19,7 +19,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.cleared import cleared
-from lagrangian.check.decimals import digits, places
+from lagrangian.check.decimals import HALF, digits, most_off, places
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded_terms import in_exact_terms, typed_in_names, within_rounding
 from lagrangian.check.verdict import AnsweredLine
@@ -34,11 +34,6 @@ FEWEST_DIGITS = 4
 FEWEST_IN_RIGHT_LINE = 3
 """The fewest significant digits in a line in which every number is a right one or rounded from the right one."""
 
-FEWEST_OFF, MOST_OFF = 5, 2.5
-"""From how many digits on the last one may be off in such a line, as if made from rounded numbers, and how far."""
-
-HALF = 0.5000001
-"""How far a number that is rounded may be off, in units of its last digit."""
 LONGEST = 1_000
 """The largest number of operations of an equation whose coefficients are sought."""
 
@@ -222,16 +217,12 @@ def _right_sums(
         for scale in dict.fromkeys((sp.S.One, sp.S.NegativeOne, *exact)):
             meant = {k: scale * x for k, x in right.items()}
             off = {abs(x): abs(_size(x) - _size(meant[k])) for k, x in own.items() if not _same(x, meant[k])}
-            exact = {abs(own[k]): abs(_size(x)) for k, x in meant.items()}
-            if off and all(x in units and far <= _most_off(x, units[x], exact[x]) for x, far in off.items()):
-                return meant, {float(x): None if far <= HALF * units[x] else exact[x] for x, far in off.items()}
+            if not off or any(x not in units for x in off):
+                continue
+            sizes = {abs(own[k]): abs(_size(x)) for k, x in meant.items()}
+            if all(far <= most_off(float(x), units[x], sizes[x]) for x, far in off.items()):
+                return meant, {float(x): None if far <= HALF * units[x] else sizes[x] for x, far in off.items()}
     return own, {}
-
-
-def _most_off(size: Any, unit: float, exact: float) -> float:
-    """How far a number with such a last digit may be off in a line that is otherwise right; 2.0001 is not 2."""
-    whole = abs(exact / unit - round(exact / unit)) < FAR * exact / unit
-    return unit * (HALF if whole or last_digit(size, FEWEST_OFF) is None else MOST_OFF)
 
 
 def _divided(

@@ -13,9 +13,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.decimals import HALF
 from lagrangian.check.names.spelling import values_of
 from lagrangian.check.reference import Reference
-from lagrangian.check.rounded import FEWEST_DIGITS, HALF, coefficients, is_true_number, last_digit
+from lagrangian.check.rounded import FEWEST_DIGITS, coefficients, is_true_number, last_digit
 from lagrangian.check.verdict import AnsweredLine
 
 NEAR = 1e-3

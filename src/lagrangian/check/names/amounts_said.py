@@ -19,8 +19,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.decimals import HALF, most_off
 from lagrangian.check.reference import Reference
-from lagrangian.check.rounded import FEWEST_OFF, HALF, MOST_OFF
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -97,7 +97,7 @@ def judged_with_amounts(
         said = [line for line in said if np.isfinite(_amount(truth, line.expr, own))]
         left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
-        if None not in found and None in (_untrue(truth, same, said, x, MOST_OFF) for x in (own, stated) if found):
+        if None not in found and None in (_untrue(truth, same, said, x, slack=True) for x in (own, stated) if found):
             nearly += [text(*x[0].parts, " Only the last digit is off, which was not counted.") for x in found[:1] if x]
             found = [None]
         if None in found:
@@ -238,10 +238,15 @@ def _is_number(line: AnsweredLine) -> bool:
 
 
 def _untrue(
-    truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values, most: float = HALF
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    said: Sequence[AnsweredLine],
+    values: _Values,
+    *,
+    slack: bool = False,
 ) -> tuple[Text, float] | None:
     """What letters amount to, where the sides of a line say something else, and by how much these are wrong; None if
-    they are right, where a number with many digits may be off by ``most`` units of the last one."""
+    they are right, where with ``slack`` the last one of many digits may be off."""
     numbers = list(_written(lines[0].text))
     stated = list(_stated(truth, lines, said, values))
     sizes = {abs(x.number) for x in stated}
@@ -253,11 +258,7 @@ def _untrue(
         digits = next((n for n in numbers if _same(n.size, abs(x.number))), None)
         near = relative * abs(x.meant)
         if digits is not None:
-            many = digits.size >= 10 ** (FEWEST_OFF - 1) * digits.unit
-            many = (
-                many and abs(x.meant / digits.unit - round(x.meant / digits.unit)) > EXACT * digits.size / digits.unit
-            )
-            rounded = (most if many else HALF) * digits.unit
+            rounded = most_off(digits.size, digits.unit, x.meant) if slack else HALF * digits.unit
             near = rounded if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
         near = max(near, EXACT * x.scale) if x.number == 0 else near
         if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
