@@ -19,6 +19,11 @@ _NUMBERS = re.compile(
     r"^[ \t]{0,20}\(\d{1,2}\)(?:[ \t]?[-+−–][ \t]?\(\d{1,2}\)){1,3}[ \t]+(?=[^\n=:]{2,300}=)", re.MULTILINE
 )
 """Numbers of equations that are added or subtracted, in front of what this gives."""
+_NUMBERED = re.compile(
+    r"^[ \t]{0,20}\((?P<before>\d{1,2})\)[ \t]+(?=[^-+−– \t])|\((?P<behind>\d{1,2})\)[ \t.]{0,20}$", re.MULTILINE
+)
+"""The number of an equation, in front of it or behind it."""
+_COUNT = re.compile(r"\d+")
 _NAMED = re.compile(r"(?<![^\s*·×+−(-])\((?P<said>[^()=+*/^\n]{1,40})\)")
 _NUMBER = re.compile(r"[ \t]?(?:\d{1,2}[a-z]?|[IVX]{1,4}|[A-Z]|\*{1,3})[ \t]?")
 _TIMES = re.compile(r"[*·×]")
@@ -38,12 +43,10 @@ def without_combinations(text: str, words: Words) -> str:
             text = blank(text, *match.span())
     for match in [m for m in _LABEL.finditer(text) if _combines(m.group(), words)]:
         text = blank(text, *match.span())
-    for match in list(_NUMBERS.finditer(text)):
-        numbers = re.findall(r"\d+", match.group())
-        if all(
-            re.search(rf"^[ \t]{{0,20}}\({n}\)[ \t]+[^-+−– \t]|\({n}\)[ \t.]{{0,20}}$", text, re.MULTILINE)
-            for n in numbers
-        ):
+    combined = list(_NUMBERS.finditer(text))
+    known = {m["before"] or m["behind"] for m in _NUMBERED.finditer(text)} if combined else set[str]()
+    for match in combined:
+        if set(_COUNT.findall(match.group())) <= known:
             text = blank(text, *match.span())
     return text
 
