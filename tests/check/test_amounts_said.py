@@ -265,21 +265,20 @@ def test_the_value_of_a_product_with_an_index_is_no_name_of_its_own() -> None:
     L = "0.8 m"
     J = "6 kg*m^2"
     g = "9.81 m/s^2"
+    [[frame]]
+    name = "rod"
+    angle = "phi"
     [points]
     P = ["L*sin(phi)", "-L*cos(phi)"]
     [[rigid_body]]
     mass = "m2"
     inertia = "J"
     at = "P"
-    angle = "phi"
+    frame = "rod"
     [[gravity]]
     direction = [0, -1]
     """
-    pendulum = loads(
-        model.replace('    angle = "phi"\n', '    frame = "rod"\n').replace(
-            "    [points]", '    [[frame]]\n    name = "rod"\n    angle = "phi"\n    [points]'
-        )
-    ).derive()
+    pendulum = loads(model).derive()
     written = "m₂L = 48,  m₂L² + J = 44.4\n44.4 φ'' + 470.88 sin φ = 0"
     assert pendulum.check(written).right
     assert not pendulum.check(written.replace("= 44.4\n", "= 45.4\n")).right

@@ -50,7 +50,8 @@ def judged_with_work(
     every = [(x, _equations_of(truth, _in_coordinates(truth, lines, x), right=alone)) for x in lines]
     lines = [x for line, found in every for x in found or [line]]
     if alone and any(len(found) > 1 for _, found in every):
-        return _with_note(judge(lines))
+        verdict = judge(lines)
+        return replace(verdict, notes=(*verdict.notes, FACTORS))
     works = [k for k, line in enumerate(lines) if _is_work(truth, line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
@@ -65,11 +66,6 @@ def judged_with_work(
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
     wrong = wrong or {k: found for k in works if (found := _copied_forces(truth, written, written[k]))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
-
-
-def _with_note(verdict: Verdict) -> Verdict:
-    """The verdict on the factors of d'Alembert's principle, with what makes each of them an equation of motion."""
-    return replace(verdict, notes=(*verdict.notes, FACTORS))
 
 
 def _in_coordinates(truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine) -> AnsweredLine:
